@@ -1,0 +1,61 @@
+# How rooms and tests are built: one small function each.
+
+# Flags of every file. The baseline is AVX2 with FMA; kernels are compiled once more for AVX-512.
+add_library(gannet_flags INTERFACE)
+target_compile_options(gannet_flags INTERFACE
+  -march=x86-64-v3 -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wpedantic -Wshadow -Werror
+  # Designated initialisers name what they set; what they leave out has its default.
+  -Wno-missing-field-initializers)
+target_include_directories(gannet_flags INTERFACE ${PROJECT_SOURCE_DIR}/src
+                                                  ${PROJECT_SOURCE_DIR}/include)
+if(GANNET_SANITIZE)
+  target_compile_options(gannet_flags INTERFACE -fsanitize=address,undefined
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(gannet_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# gannet_room(NAME SOURCES a.cpp ... [ISA b.isa.cpp ...] [USES other rooms and libraries ...])
+# makes the library gannet_NAME. Files under ISA are compiled once per instruction set.
+function(gannet_room NAME)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ISA;USES" ${ARGN})
+  set(target gannet_${NAME})
+  add_library(${target} STATIC ${ROOM_SOURCES})
+  target_link_libraries(${target} PUBLIC gannet_flags ${ROOM_USES})
+  foreach(set avx2 avx512)
+    if(ROOM_ISA)
+      set(objects ${target}_${set})
+      add_library(${objects} OBJECT ${ROOM_ISA})
+      target_link_libraries(${objects} PRIVATE gannet_flags)
+      target_compile_definitions(${objects} PRIVATE GANNET_ISA_NS=${set})
+      target_compile_options(${objects} PRIVATE -O3)
+      if(set STREQUAL avx512)
+        # g++ 12 warns of its own intrinsics (their "undefined" operand) once they are inlined.
+        target_compile_options(${objects} PRIVATE -mavx512f -mavx512dq -mavx512vl -mavx512bw
+                               -mprefer-vector-width=512 -Wno-uninitialized
+                               -Wno-maybe-uninitialized)
+      endif()
+      target_sources(${target} PRIVATE $<TARGET_OBJECTS:${objects}>)
+    endif()
+  endforeach()
+endfunction()
+
+# gannet_test(NAME SOURCES a.cpp ... [USES libraries ...] [LABEL fast]) makes an executable with
+# Catch2's main and one CTest entry.
+function(gannet_test NAME)
+  cmake_parse_arguments(T "" "LABEL" "SOURCES;USES" ${ARGN})
+  foreach(source ${T_SOURCES})
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+      list(REMOVE_ITEM T_SOURCES ${source})
+    endif()
+  endforeach()
+  if(NOT T_SOURCES)
+    return()
+  endif()
+  add_executable(test_${NAME} ${T_SOURCES})
+  target_link_libraries(test_${NAME} PRIVATE gannet_test_main ${T_USES})
+  add_test(NAME ${NAME} COMMAND test_${NAME} -d yes WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(T_LABEL)
+    set_tests_properties(${NAME} PROPERTIES LABELS ${T_LABEL})
+  endif()
+endfunction()
