@@ -1,0 +1,24 @@
+// Filling a region with particles.
+#pragma once
+
+#include <vector>
+
+#include "base/keys.hpp"
+#include "base/math.hpp"
+
+namespace gannet {
+
+/// Particles on a lattice that fills `fill.box` of the part.
+///   n_k = round(L_k / spacing),  x_k = from_k + (i + 1/2) L_k / n_k
+/// so that the first layer stands half a cell off every face. x runs fastest, z slowest.
+/// spacing: [m], > 0. dimension: 3, or 2 for the x-y plane, where all points have z = 0.
+/// `fill.jitter` moves each point by a random part of a cell, the same one in every run.
+/// A box thinner than one spacing, or turned inside out, is a mistake: it is noted in the case's
+/// list and no point is returned. Throws nothing.
+std::vector<Vec3> fill_points(const Keys& part, double spacing, int dimension);
+
+/// Volume of one cell of that lattice, so that n cells are the box exactly (spacing^dimension
+/// where the box is a whole number of spacings): [m^3], in 2D [m^2]. 0 where nothing is filled.
+double fill_cell_volume(const Keys& part, double spacing, int dimension);
+
+}  // namespace gannet

@@ -1,0 +1,103 @@
+#include "mesh/mesh_keys.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "mesh/msh_file.hpp"
+#include "mesh/shapes.hpp"
+
+namespace gannet {
+namespace {
+
+struct FileUnit {
+  std::string_view name;
+  double metres;
+};
+constexpr std::array file_units = {FileUnit{"m", 1}, FileUnit{"cm", 0.01}, FileUnit{"mm", 0.001},
+                                   FileUnit{"in", 0.0254}, FileUnit{"ft", 0.3048}};
+
+Key mesh_key() {
+  std::vector<std::string> units;
+  for (const FileUnit& unit : file_units) units.emplace_back(unit.name);
+  return {.name = "mesh",
+          .kind = Kind::map,
+          .text = "a surface from a file",
+          .keys = {{.name = "file",
+                    .kind = Kind::path,
+                    .text = "a gmsh file (.msh 4.1 or 2.2, ASCII)",
+                    .required = true},
+                   {.name = "unit",
+                    .kind = Kind::choice,
+                    .text = "unit of the lengths in the file",
+                    .fallback = "m",
+                    .choices = units},
+                   {.name = "group",
+                    .kind = Kind::text,
+                    .text = "name of the physical surface to take; all cells unless said"},
+                   {.name = "move",
+                    .kind = Kind::vector,
+                    .unit = dim::length,
+                    .text = "vector by which the mesh is moved"}}};
+}
+
+Key fill_key() {
+  const auto corner = [](const char* name, const char* text) {
+    return Key{
+        .name = name, .kind = Kind::vector, .unit = dim::length, .text = text, .required = true};
+  };
+  return {.name = "fill",
+          .kind = Kind::map,
+          .text = "the region that is filled with particles",
+          .keys = {{.name = "box",
+                    .kind = Kind::map,
+                    .text = "a box along the axes",
+                    .keys = {corner("from", "corner with the smallest coordinates"),
+                             corner("to", "corner with the largest coordinates")}},
+                   {.name = "jitter",
+                    .text = "largest random offset of a particle, as a part of its cell",
+                    .limits = {0, 0.5, false, true}},
+                   {.name = "seed",
+                    .kind = Kind::integer,
+                    .text = "another number gives other random offsets; 0 unless said",
+                    .limits = at_least(0)}}};
+}
+
+SurfaceMesh file_surface(const Keys& keys) {
+  if (!keys.has("file")) return {};  // required: the reader has complained
+  const std::string group = keys.has("group") ? keys.word("group") : "";
+  SurfaceMesh mesh = read_msh(keys.word("file"), group, keys.mistakes());
+  const std::string unit = keys.has("unit") ? keys.word("unit") : "m";
+  double metres = 1;
+  for (const FileUnit& known : file_units) {
+    if (known.name == unit) metres = known.metres;
+  }
+  const Vec3 move = keys.has("move") ? keys.vector("move") : Vec3::Zero();
+  for (Vec3& x : mesh.points) x = metres * x + move;
+  return mesh;
+}
+
+}  // namespace
+
+Schema mesh_schema() {
+  const Key shape{
+      .name = "shape", .kind = Kind::map, .text = "a surface of elements", .keys = shape_keys()};
+  return {{"parts.*", shape}, {"parts.*", mesh_key()}, {"parts.*", fill_key()}};
+}
+
+SurfaceMesh surface_mesh(const Keys& part) {
+  const bool shape = part.has("shape");
+  const bool file = part.has("mesh");
+  if (shape && file) {
+    part.complain("mesh", "stands beside 'shape'; a part has one of them");
+    return {};
+  }
+  if (shape) return shape_surface(part.map("shape"));
+  if (file) return file_surface(part.map("mesh"));
+  part.mistakes().add(part.where(), part.path() +
+                                        ": its surface is missing; a 'shape' or a 'mesh' "
+                                        "is wanted");
+  return {};
+}
+
+}  // namespace gannet

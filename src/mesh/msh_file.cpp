@@ -1,0 +1,308 @@
+#include "mesh/msh_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace gannet {
+namespace {
+
+using Tag = std::int64_t;
+
+// The first mistake in a file; reading stops there, since what follows cannot be trusted.
+struct MshMistake {
+  Location where;
+  std::string text;
+};
+
+// The lines of a file, each split into its words.
+class Lines {
+ public:
+  explicit Lines(const std::string& file) : file_(file), in_(file) {
+    if (!in_) throw MshMistake{{file, 0, 0}, "the file cannot be opened"};
+  }
+
+  // Moves to the next line that is not empty; false at the end of the file.
+  bool next() {
+    while (std::getline(in_, line_)) {
+      ++number_;
+      split();
+      if (!words_.empty()) return true;
+    }
+    return false;
+  }
+
+  // The same inside a section, where the file must not end.
+  void next_of(std::string_view section) {
+    if (!next()) fail(fmt::format("the file ends within ${}", section));
+    if (words_[0].starts_with('$')) {
+      fail(fmt::format("'{}' comes before all that ${} announces has been given", words_[0],
+                       section));
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return words_.size(); }
+  [[nodiscard]] std::string_view word(std::size_t k) const { return words_[k]; }
+  [[nodiscard]] const std::string& line() const { return line_; }
+
+  [[nodiscard]] Tag integer(std::size_t k) const { return parse<Tag>(k, "a whole number"); }
+  [[nodiscard]] Tag count(std::size_t k) const {
+    const Tag n = integer(k);
+    if (n < 0) fail(fmt::format("'{}' is not a count", words_[k]));
+    return n;
+  }
+  [[nodiscard]] double number(std::size_t k) const {
+    const auto value = parse<double>(k, "a number");
+    if (!std::isfinite(value)) fail(fmt::format("'{}' is not finite", words_[k]));
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& text) const {
+    throw MshMistake{{file_, number_, 0}, text};
+  }
+
+ private:
+  void split() {
+    words_.clear();
+    const std::string_view line = line_;
+    for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
+      const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+      words_.push_back(line.substr(begin, end - begin));
+      begin = line.find_first_not_of(blanks, end);
+    }
+  }
+
+  template <class T>
+  [[nodiscard]] T parse(std::size_t k, const char* what) const {
+    if (k >= words_.size()) {
+      fail(fmt::format("{} is missing behind {} word(s)", what, words_.size()));
+    }
+    T value{};
+    const char* end = words_[k].data() + words_[k].size();
+    const auto [stop, error] = std::from_chars(words_[k].data(), end, value);
+    if (error != std::errc{} || stop != end) {
+      fail(fmt::format("'{}' stands where {} is wanted", words_[k], what));
+    }
+    return value;
+  }
+
+  static constexpr const char* blanks = " \t\r";
+  std::string file_;
+  std::ifstream in_;
+  std::string line_;
+  std::vector<std::string_view> words_;
+  int number_ = 0;
+};
+
+constexpr int triangle_type = 2;
+constexpr int quad_type = 3;
+constexpr std::array surface_types_of_higher_order = {9, 10, 16, 20, 21, 22, 23, 36, 37, 38};
+
+// What has been read so far.
+struct MshContent {
+  int version = 0;                         // 4 or 2; 0 before $MeshFormat
+  std::map<std::string, Tag> group_tags;   // physical surfaces by name
+  std::map<Tag, std::set<Tag>> groups_of;  // physical surfaces of each surface (4.1)
+  std::unordered_map<Tag, Vec3> nodes;     // [unit of the file]
+  std::string wanted_group;                // "" for all
+  std::vector<std::array<Tag, 4>> cells;   // node tags
+};
+
+void read_format(Lines& in, MshContent& content) {
+  in.next_of("MeshFormat");
+  if (in.word(0).starts_with("4.1")) content.version = 4;
+  if (in.word(0).starts_with("2.")) content.version = 2;
+  if (content.version == 0) {
+    in.fail(fmt::format("format {} is not read; save the mesh as 4.1 or 2.2", in.word(0)));
+  }
+  if (in.integer(1) != 0) in.fail("the file is binary; save the mesh as ASCII");
+}
+
+void read_names(Lines& in, MshContent& content) {
+  in.next_of("PhysicalNames");
+  for (Tag left = in.count(0); left > 0; --left) {
+    in.next_of("PhysicalNames");
+    const Tag dimension = in.integer(0);
+    const Tag tag = in.integer(1);
+    const std::size_t open = in.line().find('"');
+    const std::size_t close = in.line().rfind('"');
+    if (open == std::string::npos || close == open) in.fail("a name in quotes is wanted");
+    if (dimension == 2) content.group_tags[in.line().substr(open + 1, close - open - 1)] = tag;
+  }
+}
+
+void read_entities(Lines& in, MshContent& content) {
+  in.next_of("Entities");
+  const std::array<Tag, 3> n = {in.count(0), in.count(1), in.count(2)};
+  for (Tag left = n[0] + n[1]; left > 0; --left) in.next_of("Entities");  // points, curves
+  for (Tag left = n[2]; left > 0; --left) {
+    in.next_of("Entities");
+    const Tag n_groups = in.count(7);  // after the tag and the two corners around the surface
+    // gmsh marks a surface that was taken in the other sense by a negative tag of its group.
+    for (Tag k = 0; k < n_groups; ++k) {
+      content.groups_of[in.integer(0)].insert(
+          std::abs(in.integer(static_cast<std::size_t>(8 + k))));
+    }
+  }
+}
+
+void add_node(Lines& in, MshContent& content, Tag tag, std::size_t first) {
+  const Vec3 x(in.number(first), in.number(first + 1), in.number(first + 2));
+  if (!content.nodes.emplace(tag, x).second) in.fail(fmt::format("node {} is there twice", tag));
+}
+
+void read_nodes(Lines& in, MshContent& content) {
+  in.next_of("Nodes");
+  if (content.version == 2) {
+    for (Tag left = in.count(0); left > 0; --left) {
+      in.next_of("Nodes");
+      add_node(in, content, in.integer(0), 1);
+    }
+    return;
+  }
+  for (Tag blocks = in.count(0); blocks > 0; --blocks) {
+    in.next_of("Nodes");
+    const Tag n = in.count(3);
+    std::vector<Tag> tags;
+    for (Tag k = 0; k < n; ++k) {
+      in.next_of("Nodes");
+      tags.push_back(in.integer(0));
+    }
+    for (const Tag tag : tags) {
+      in.next_of("Nodes");
+      add_node(in, content, tag, 0);
+    }
+  }
+}
+
+// Takes the cell on this line, whose node tags begin at word `first`, if it is one of a surface.
+void add_cell(Lines& in, MshContent& content, Tag type, std::size_t first) {
+  for (const int known : surface_types_of_higher_order) {
+    if (type == known) {
+      in.fail(fmt::format("element type {} is of higher order; mesh with order 1", type));
+    }
+  }
+  if (type != triangle_type && type != quad_type) return;
+  const std::size_t n = type == triangle_type ? 3 : 4;
+  if (in.size() < first + n) in.fail(fmt::format("the element needs {} nodes", n));
+  std::array<Tag, 4> cell{};
+  for (std::size_t k = 0; k < n; ++k) cell[k] = in.integer(first + k);
+  if (n == 3) cell[3] = cell[2];
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!content.nodes.contains(cell[k])) {
+      in.fail(fmt::format("element {} uses node {}, which is not there", in.integer(0), cell[k]));
+    }
+    if (cell[k] == cell[(k + 1) % n] || (n == 4 && cell[k] == cell[(k + 2) % n])) {
+      in.fail(fmt::format("element {} uses node {} twice", in.integer(0), cell[k]));
+    }
+  }
+  content.cells.push_back(cell);
+}
+
+void read_elements(Lines& in, MshContent& content) {
+  const bool all = content.wanted_group.empty();
+  const auto group = content.group_tags.find(content.wanted_group);
+  const Tag wanted = group == content.group_tags.end() ? -1 : group->second;
+  in.next_of("Elements");
+  if (content.version == 2) {
+    for (Tag left = in.count(0); left > 0; --left) {
+      in.next_of("Elements");
+      const Tag n_tags = in.count(2);
+      if (all || (n_tags > 0 && std::abs(in.integer(3)) == wanted)) {
+        add_cell(in, content, in.integer(1), static_cast<std::size_t>(3 + n_tags));
+      }
+    }
+    return;
+  }
+  for (Tag blocks = in.count(0); blocks > 0; --blocks) {
+    in.next_of("Elements");
+    const bool surface = in.integer(0) == 2;
+    const auto groups = content.groups_of.find(in.integer(1));
+    const bool taken =
+        surface && (all || (groups != content.groups_of.end() && groups->second.contains(wanted)));
+    const Tag type = in.integer(2);
+    for (Tag left = in.count(3); left > 0; --left) {
+      in.next_of("Elements");
+      if (taken) add_cell(in, content, type, 1);
+    }
+  }
+}
+
+void read_sections(Lines& in, MshContent& content) {
+  using Section = void (*)(Lines&, MshContent&);
+  const std::map<std::string, Section, std::less<>> known = {{"$MeshFormat", read_format},
+                                                             {"$PhysicalNames", read_names},
+                                                             {"$Entities", read_entities},
+                                                             {"$Nodes", read_nodes},
+                                                             {"$Elements", read_elements}};
+  while (in.next()) {
+    const std::string name(in.word(0));
+    if (!name.starts_with('$')) in.fail(fmt::format("'{}' stands outside of a section", name));
+    const auto section = known.find(name);
+    if (name != "$MeshFormat" && content.version == 0) {
+      in.fail(fmt::format("'{}' comes before $MeshFormat; is this a gmsh file?", name));
+    }
+    if (section != known.end()) section->second(in, content);
+    const std::string end = "$End" + name.substr(1);
+    if (section != known.end() && (!in.next() || in.word(0) != end)) {
+      in.fail(fmt::format("{} is wanted here", end));
+    }
+    while (section == known.end() && in.word(0) != end) {
+      if (!in.next()) in.fail(fmt::format("the file ends before {}", end));
+    }
+  }
+  if (content.version == 0) in.fail("the file holds no $MeshFormat; is this a gmsh file?");
+}
+
+void check_group(const Lines& in, const MshContent& content) {
+  if (content.cells.empty() && content.wanted_group.empty()) {
+    in.fail("the file holds no quadrilaterals and no triangles");
+  }
+  if (!content.cells.empty()) return;
+  std::string names;
+  for (const auto& [name, tag] : content.group_tags) names += (names.empty() ? "" : ", ") + name;
+  in.fail(
+      fmt::format("no surface cell belongs to the group '{}'; physical surfaces of this file: {}",
+                  content.wanted_group, names.empty() ? "none" : names));
+}
+
+SurfaceMesh used_part(const MshContent& content) {
+  SurfaceMesh mesh;
+  std::unordered_map<Tag, Index> number;
+  for (const std::array<Tag, 4>& cell : content.cells) {
+    for (const Tag tag : cell) {
+      const auto [place, fresh] = number.emplace(tag, static_cast<Index>(mesh.points.size()));
+      if (fresh) mesh.points.push_back(content.nodes.at(tag));
+      mesh.quads.push_back(place->second);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes& mistakes) {
+  MshContent content;
+  content.wanted_group = group;
+  try {
+    Lines in(file);
+    read_sections(in, content);
+    check_group(in, content);
+  } catch (const MshMistake& mistake) {
+    mistakes.add(mistake.where, mistake.text);
+    return {};
+  }
+  return used_part(content);
+}
+
+}  // namespace gannet

@@ -1,0 +1,18 @@
+// Reads the surface cells of a gmsh file.
+#pragma once
+
+#include <string>
+
+#include "base/keys.hpp"
+#include "mesh/mesh_keys.hpp"
+
+namespace gannet {
+
+/// The quadrilaterals and triangles of a gmsh file (.msh 4.1 or 2.2, ASCII, first order).
+/// group: name of a physical surface whose cells are wanted; "" takes all cells. Points are those
+/// that the cells use, in the order in which the cells name them, in the units of the file.
+/// A mistake in the file is noted in `mistakes` with its line, and an empty mesh is returned.
+/// Throws nothing.
+SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes& mistakes);
+
+}  // namespace gannet
