@@ -1,0 +1,146 @@
+// The plan: the operations of one step, grouped in a short closed list of stages, decided from the
+// scene before the first step. What a scene does not ask for is not in its plan.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/array.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// The stages of a step, in order (see time/step.hpp for what each time level is).
+enum class Stage { force, accelerate, kick, look, half_drift, rates, drift };
+inline constexpr int n_stages = 7;
+const char* name_of(Stage stage);
+
+/// Where a model stands: the level n it is at and the steps on both sides of it.
+struct Step {
+  std::int64_t n = 0;     ///< number of the step
+  double t = 0;           ///< time of level n [s]
+  double dt_old = 0;      ///< t(n) - t(n-1); 0 before the first step
+  double dt = 0;          ///< t(n+1) - t(n), known after the force stage
+  bool coincides = true;  ///< all models stand at the same time: output may look
+};
+
+/// Adds up wall time.
+struct Stopwatch {
+  double seconds = 0;
+  std::int64_t calls = 0;
+};
+
+/// A limit on the time step.
+struct Vote {
+  double dt = std::numeric_limits<double>::infinity();  ///< [s]
+  std::string who;                                      ///< "panel: element 1207"
+};
+
+/// One thing that happens in a step.
+struct Operation {
+  std::string name;
+  std::string reason;  ///< "asked for at case.yaml:41", or the rule with its numbers
+  Stage stage = Stage::force;
+  std::vector<std::string> reads;
+  std::vector<std::string> writes;
+  std::vector<std::string> owns;
+  std::function<void(const Step&)> run;
+  std::function<double()> stable_dt;        ///< optional vote, asked after the force stage [s]
+  std::function<std::string()> limited_by;  ///< who casts that vote: part, element, position
+  Stopwatch watch;
+};
+
+/// One entry of the energy ledger. Stored and dissipated energies are positive; what comes in from
+/// outside (external work) is positive in `external` entries.
+struct LedgerEntry {
+  std::string name;  ///< "kinetic", "internal", "plastic", "hourglass", "artificial_viscosity", ...
+  std::string part;  ///< the part, contact or load that it belongs to
+  bool external = false;  ///< work put in from outside, not energy held
+  /// Part of another entry (plastic within internal): shown, not added to the total.
+  bool within_other = false;
+  double value = 0;    ///< up to level n [J]
+  double pending = 0;  ///< of the work measured at level n, what belongs to the step after it [J]
+
+  /// Adds work that was measured along work_path() at level n: the share of the step before the
+  /// level counts now, that of the step after it at the next level.
+  void add_work(double work, const Step& step) {
+    const double after = work * step.dt / (step.dt_old + step.dt);
+    value += pending + (work - after);
+    pending = after;
+  }
+};
+
+/// The energy ledger: an open list. Every entry is a sum of work or a state function that an
+/// operation measured; none is computed as a remainder.
+class Ledger {
+ public:
+  /// The entry of that name and part, made at first use; the address never changes.
+  LedgerEntry& entry(const std::string& name, const std::string& part);
+  [[nodiscard]] const std::deque<LedgerEntry>& entries() const { return entries_; }
+  std::deque<LedgerEntry>& entries() { return entries_; }
+  [[nodiscard]] double held() const;      ///< kinetic, stored and dissipated [J]
+  [[nodiscard]] double external() const;  ///< work put in since the start [J]
+
+ private:
+  std::deque<LedgerEntry> entries_;
+};
+
+/// The operations of one model.
+class Plan {
+ public:
+  /// Appends to its stage; within a stage the order is the order of adding.
+  Operation& add(Operation operation);
+  std::deque<Operation>& at(Stage stage) { return stages_[static_cast<std::size_t>(stage)]; }
+  [[nodiscard]] const std::deque<Operation>& at(Stage stage) const {
+    return stages_[static_cast<std::size_t>(stage)];
+  }
+
+ private:
+  std::array<std::deque<Operation>, n_stages> stages_;
+};
+
+/// A set of ranges of the one node table that advances at its own step.
+struct Model {
+  std::string name = "main";
+  std::vector<Range> ranges;
+  Plan plan;
+  Step step;
+  Vote vote;              ///< who limited the last step
+  double dt_scale = 1;    ///< taken of the smallest vote
+  double target = 0;      ///< time of the next slower model's next level [s]
+  int substeps_left = 0;  ///< to the target, this step included
+};
+
+/// All models, slowest first, and the ledger that they share.
+struct Models {
+  std::deque<Model> list;
+  Ledger ledger;
+  /// The model that holds a node.
+  Model& of_node(Index node);
+  Model& of_part(const Scene& scene, int part) { return of_node(scene.parts[part].nodes.begin); }
+};
+
+/// v(n) of node i after the kick: v(n+1/2) - (f/m) dt/2. Holds for prescribed and tied nodes too,
+/// because the kick leaves in f the force that the constraint really applied.
+inline Vec3 velocity_at_level(const Nodes& nodes, Index i, double dt) {
+  const double s = 0.5 * dt * nodes.v[i].w;
+  return {nodes.v[i].x - s * nodes.f[i].x, nodes.v[i].y - s * nodes.f[i].y,
+          nodes.v[i].z - s * nodes.f[i].z};
+}
+
+/// Displacement that work at level n is measured along: (v(n-1/2) dt_old + v(n+1/2) dt)/2, so that
+/// over a step the work of a force is its trapezoid (f(n) + f(n+1))/2 . (x(n+1) - x(n)).
+inline Vec3 work_path(const Nodes& nodes, Index i, const Step& step) {
+  const Vec3 v_new = xyz(nodes.v[i]);
+  const Vec3 a = xyz(nodes.f[i]) * nodes.v[i].w;
+  const Vec3 v_old = v_new - a * (0.5 * (step.dt_old + step.dt));
+  return 0.5 * (v_old * step.dt_old + v_new * step.dt);
+}
+
+}  // namespace gannet

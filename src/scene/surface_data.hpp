@@ -1,0 +1,21 @@
+// What contact needs to know of the parts that have a surface: one small struct a part, filled by
+// the effect that makes the elements.
+#pragma once
+
+#include <vector>
+
+namespace gannet {
+
+/// The surface of one part; zeros where a part has none.
+struct ShellSurface {
+  double thickness = 0;  ///< of the shell at the start [m]
+  double young = 0;      ///< Young's modulus [Pa]
+};
+
+/// scene.store.get<SurfaceData>().of_part[p] belongs to scene.parts[p]; may be shorter than the
+/// list of parts.
+struct SurfaceData {
+  std::vector<ShellSurface> of_part;
+};
+
+}  // namespace gannet
