@@ -1,0 +1,106 @@
+#include "time/link.hpp"
+
+namespace gannet {
+
+namespace {
+
+bool same_level(const Link& link) { return link.slow->step.t == link.fast->step.t; }
+
+void clear_nodes(Nodes& nodes, const Link& link) {
+  for (const Index i : link.nodes) {
+    nodes.f[i] = {};
+    if (nodes.rotating.contains(i)) set_xyz(nodes.torque[i], Vec3::Zero());
+  }
+}
+
+/// Moves the forces that the slow model put on the linked nodes to the slow slot, and adds their
+/// work along the path since the last level.
+void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    link.force[k] = nodes.f[i];
+    if (nodes.rotating.contains(i)) set_xyz(link.moment[k], xyz(nodes.torque[i]));
+    const Vec3 f = xyz(link.force[k]);
+    const Vec3 x = xyz(nodes.x[i]);
+    if (link.slow->step.dt_old > 0) {
+      entry.value += 0.5 * (f + xyz(link.f_level[k])).dot(x - xyz(link.x_level[k]));
+    }
+    set_xyz(link.x_level[k], x);
+    set_xyz(link.f_level[k], f);
+  }
+  clear_nodes(nodes, link);
+}
+
+void apply(Nodes& nodes, Link& link) {
+  if (!same_level(link)) return;
+  const Step& slow = link.slow->step;
+  const Step& fast = link.fast->step;
+  const double ratio = (slow.dt_old + slow.dt) / (fast.dt_old + fast.dt);
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    add_xyz(nodes.f[i], ratio * xyz(link.force[k]));
+    if (nodes.rotating.contains(i)) add_xyz(nodes.torque[i], ratio * xyz(link.moment[k]));
+  }
+}
+
+/// Takes off the work of the impulses at a coinciding level. The kinetic energy at level n is taken
+/// in the middle of the kick, so the impulse counts half before the level and half after it.
+void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
+  if (!same_level(link)) return;
+  const Step& slow = link.slow->step;
+  double work = 0;
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Vec3 v = velocity_at_level(nodes, link.nodes[k], link.fast->step.dt);
+    work += xyz(link.force[k]).dot(v);
+  }
+  entry.add_work(-0.5 * (slow.dt_old + slow.dt) * work, slow);
+}
+
+}  // namespace
+
+void open_link(Scene& scene, Link& link) {
+  const std::size_t n = link.nodes.size();
+  link.force.assign(n, {});
+  link.moment.assign(n, {});
+  link.x_level.assign(n, {});
+  link.f_level.assign(n, {});
+  const auto track = [&](const char* what, const char* unit, Array<Line>& lines) {
+    Field f = line_field("link." + link.name + "." + what, unit, "", Over::scene, lines, 0, 4,
+                         GhostRule::none);
+    f.owner = "link " + link.name;
+    scene.fields.push_back(std::move(f));
+  };
+  track("x_level", "m", link.x_level);
+  track("f_level", "N", link.f_level);
+  link.slow->plan.add({.name = "clear link " + link.name,
+                       .reason = "the nodes belong to model " + link.fast->name,
+                       .stage = Stage::force,
+                       .writes = {"f"},
+                       .run = [&scene, &link](const Step&) { clear_nodes(scene.nodes, link); }});
+}
+
+void close_link(Scene& scene, Link& link, Ledger& ledger) {
+  const std::string reason =
+      "links model " + link.slow->name + " to the faster model " + link.fast->name;
+  LedgerEntry& entry = ledger.entry("link", link.name);
+  link.slow->plan.add(
+      {.name = "collect link " + link.name,
+       .reason = reason,
+       .stage = Stage::force,
+       .reads = {"f", "x"},
+       .owns = {"link." + link.name},
+       .run = [&scene, &link, &entry](const Step&) { collect(scene.nodes, link, entry); }});
+  link.fast->plan.add({.name = "apply link " + link.name,
+                       .reason = reason,
+                       .stage = Stage::accelerate,
+                       .writes = {"f"},
+                       .run = [&scene, &link](const Step&) { apply(scene.nodes, link); }});
+  link.fast->plan.add(
+      {.name = "link energy " + link.name,
+       .reason = reason,
+       .stage = Stage::look,
+       .reads = {"v"},
+       .run = [&scene, &link, &entry](const Step&) { measure(scene.nodes, link, entry); }});
+}
+
+}  // namespace gannet

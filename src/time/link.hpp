@@ -1,0 +1,36 @@
+// A link: forces that operations of a slow model put on nodes of a faster one.
+#pragma once
+
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// Nodes of a fast model that a slow model's operations push. The slow model evaluates its force
+/// f_s once a coarse step, at its own level n; the node takes it as the impulse
+/// f_s (dT_old + dT)/2 at that level, in one kick with the fast forces of the same level, and
+/// moves with the fast model in between. The scheme is symplectic (asynchronous variational
+/// integrator: Lew, Marsden, Ortiz & West 2003) and was found neutral where the node is a massive
+/// body and only gentle forces are slow.
+struct Link {
+  std::string name;
+  Model* slow = nullptr;
+  Model* fast = nullptr;
+  Array<Index> nodes;   ///< nodes of the fast model
+  Array<Line> force;    ///< slow slot: force at the slow model's level n [N]
+  Array<Line> moment;   ///< slow slot: moment [N m], for rotating nodes
+  Array<Line> x_level;  ///< position at the slow model's last level [m]
+  Array<Line> f_level;  ///< slow force at that level [N]
+};
+
+/// Opens the link: in the slow model's force stage, clears the forces of the linked nodes. Call it
+/// before the operations of the slow model that push them are added.
+void open_link(Scene& scene, Link& link);
+
+/// Closes the link, after all operations that push the linked nodes were added: at the end of the
+/// slow model's force stage the forces move to the slow slot; in the fast model's accelerate stage
+/// they are applied at coinciding levels; the ledger's entry "link" holds what the impulses and
+/// the paths differ by. The link must stay where it is.
+void close_link(Scene& scene, Link& link, Ledger& ledger);
+
+}  // namespace gannet

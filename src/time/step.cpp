@@ -1,0 +1,125 @@
+#include "time/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace gannet {
+
+namespace {
+
+void run(std::span<Model* const> level, Stage stage) {
+  using Watch = std::chrono::steady_clock;
+  for (Model* model : level) {
+    for (Operation& op : model->plan.at(stage)) {
+      const auto start = Watch::now();
+      op.run(model->step);
+      op.watch.seconds += std::chrono::duration<double>(Watch::now() - start).count();
+      ++op.watch.calls;
+    }
+  }
+}
+
+[[noreturn]] void no_step(const Model& model) {
+  throw RunError({fmt::format("the time step became {} s", model.vote.dt),
+                  fmt::format("model {}, {}", model.name,
+                              model.vote.who.empty() ? "no operation votes" : model.vote.who),
+                  fmt::format("at t = {:.6g} s, step {}, the operation named above allows no "
+                              "positive, finite step",
+                              model.step.t, model.step.n),
+                  "look at the last frames near that place; refine, stiffen or damp there"});
+}
+
+void advance_time(std::span<Model* const> level) {
+  for (Model* model : level) {
+    Step& s = model->step;
+    const bool arrives = model->substeps_left == 1;
+    s.t = arrives ? model->target : s.t + s.dt;
+    s.dt_old = s.dt;
+    ++s.n;
+    if (model->substeps_left > 0) --model->substeps_left;
+  }
+}
+
+}  // namespace
+
+Vote smallest_vote(const Model& model) {
+  const Operation* who = nullptr;
+  Vote vote;
+  for (int s = 0; s < n_stages; ++s) {
+    for (const Operation& op : model.plan.at(static_cast<Stage>(s))) {
+      if (!op.stable_dt) continue;
+      const double dt = op.stable_dt();
+      if (!(dt >= vote.dt)) {
+        vote.dt = dt;
+        who = &op;
+      }
+    }
+  }
+  vote.dt *= model.dt_scale;
+  if (who != nullptr) vote.who = who->limited_by ? who->limited_by() : who->name;
+  return vote;
+}
+
+void choose_dt(std::span<Model* const> level) {
+  for (std::size_t k = 0; k < level.size(); ++k) {
+    Model& model = *level[k];
+    model.vote = smallest_vote(model);
+    if (!(model.vote.dt > 0)) no_step(model);
+    const bool slowest = k == 0 && model.substeps_left == 0;
+    if (slowest) {
+      if (!std::isfinite(model.vote.dt)) no_step(model);
+      model.step.dt = model.vote.dt;
+      continue;
+    }
+    if (k > 0) {
+      const Model& slower = *level[k - 1];
+      model.target = slower.substeps_left == 1 ? slower.target : slower.step.t + slower.step.dt;
+      model.substeps_left = 0;
+    }
+    const double left = model.target - model.step.t;
+    const double ratio = std::ceil(left / model.vote.dt * (1 - 1e-12));
+    if (ratio > 1e9) no_step(model);
+    model.substeps_left = std::max({1, model.substeps_left, static_cast<int>(ratio)});
+    model.step.dt = left / model.substeps_left;
+  }
+}
+
+void step(std::span<Model* const> level) {
+  run(level, Stage::force);
+  choose_dt(level);
+  run(level, Stage::accelerate);
+  run(level, Stage::kick);
+  run(level, Stage::look);
+  run(level, Stage::half_drift);
+  run(level, Stage::rates);
+  run(level, Stage::drift);
+  advance_time(level);
+}
+
+void evaluate_start(Models& models) {
+  for (Model& model : models.list) {
+    Model* level[] = {&model};
+    run(level, Stage::force);
+  }
+}
+
+void advance(Models& models) {
+  std::vector<Model*> level;
+  do {
+    const double behind = models.list.back().step.t;
+    level.clear();
+    for (Model& m : models.list) {
+      if (m.step.t == behind) level.push_back(&m);
+    }
+    for (Model* m : level) m->step.coincides = level.size() == models.list.size();
+    step(level);
+  } while (models.list.back().step.t != models.list.front().step.t);
+}
+
+}  // namespace gannet
