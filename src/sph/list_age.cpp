@@ -1,0 +1,116 @@
+#include "sph/list_age.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gannet {
+
+namespace {
+
+/// How many cells away are compared one by one.
+constexpr Index range = 2;
+/// How much further than 2 h these reach, in spacings: what water may move, relative to other
+/// water further off, before lists are made anew.
+constexpr double far_allowance = 2;
+
+struct Grid {
+  Vec3 low = Vec3::Zero();
+  double edge = 0;
+  std::array<Index, 3> n{};
+
+  [[nodiscard]] Index cell_of(const Line& x) const {
+    const Vec3 at = (xyz(x) - low) / edge;
+    std::array<Index, 3> i{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      i[d] = std::clamp(static_cast<Index>(at[static_cast<Eigen::Index>(d)]), Index{0}, n[d] - 1);
+    }
+    return (i[2] * n[1] + i[1]) * n[0] + i[0];
+  }
+};
+
+Grid grid_of(std::span<const Line> x, double edge) {
+  MotionBox box;
+  for (const Line& p : x) box.add(xyz(p));
+  Grid grid{box.low, edge, {}};
+  const double most = std::max(4096.0, 2.0 * static_cast<double>(x.size()));
+  while (true) {
+    const Vec3 n = ((box.high - box.low) / grid.edge).array().floor() + 1;
+    if (n.prod() <= most) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        grid.n[d] = static_cast<Index>(n[static_cast<Eigen::Index>(d)]);
+      }
+      return grid;
+    }
+    grid.edge *= 1.25;
+  }
+}
+
+/// Counting sort of the sources by cell.
+void sort_by_cell(std::span<const Line> x, const Grid& grid, ListAge& age) {
+  const auto n_sources = static_cast<Index>(x.size());
+  age.n = grid.n;
+  age.start.assign(static_cast<std::size_t>(age.n_cells() + 2), 0);
+  age.member.resize(x.size());
+  for (const Line& p : x) ++age.start[grid.cell_of(p) + 2];
+  for (std::size_t c = 2; c < age.start.size(); ++c) age.start[c] += age.start[c - 1];
+  for (Index k = 0; k < n_sources; ++k) age.member[age.start[grid.cell_of(x[k]) + 1]++] = k;
+  age.start.pop_back();
+  age.motion.resize(static_cast<std::size_t>(age.n_cells()));
+}
+
+/// The neighbour of cell c that is `away`, or -1 outside of the grid.
+Index neighbour_of(const ListAge& age, Index c, const std::array<Index, 3>& away) {
+  const Index i = c % age.n[0] + away[0];
+  const Index j = c / age.n[0] % age.n[1] + away[1];
+  const Index k = c / (age.n[0] * age.n[1]) + away[2];
+  const bool inside = i >= 0 && i < age.n[0] && j >= 0 && j < age.n[1] && k >= 0 && k < age.n[2];
+  return inside ? (k * age.n[1] + j) * age.n[0] + i : -1;
+}
+
+bool cell_is_outdated(const ListAge& age, Index c) {
+  const MotionBox& here = age.motion[c];
+  if (here.empty()) return false;
+  for (const ListAge::Neighbour& neighbour : age.neighbours) {
+    const Index other = neighbour_of(age, c, neighbour.away);
+    if (other < 0 || age.motion[other].empty()) continue;
+    if (largest_difference(here, age.motion[other]) > neighbour.allowed) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age) {
+  const Grid grid = grid_of(x, (support + far_allowance * dx) / range);
+  sort_by_cell(x, grid, age);
+  age.allowed_elsewhere = range * grid.edge - support;
+  age.neighbours.clear();
+  const auto gap = [&](Index steps) { return grid.edge * std::max(std::abs(steps) - 1, 0); };
+  for (Index k = 0; k <= range; ++k) {
+    for (Index j = -range; j <= range; ++j) {
+      for (Index i = -range; i <= range; ++i) {
+        if (k == 0 && (j < 0 || (j == 0 && i < 0))) continue;
+        const double apart = Vec3(gap(i), gap(j), gap(k)).norm();
+        age.neighbours.push_back({{i, j, k}, std::max(skin, apart - support)});
+      }
+    }
+  }
+}
+
+bool outdated(const ListAge& age) {
+  MotionBox all;
+  for (const MotionBox& box : age.motion) all.add(box);
+  if (largest_difference(all, all) > age.allowed_elsewhere) return true;
+  const int found = parallel_reduce(
+      age.n_cells(), 64, 0,
+      [&](Index begin, Index end) {
+        for (Index c = begin; c < end; ++c) {
+          if (cell_is_outdated(age, c)) return 1;
+        }
+        return 0;
+      },
+      [](int a, int b) { return a | b; });
+  return found != 0;
+}
+
+}  // namespace gannet

@@ -1,0 +1,92 @@
+#include "sph/neighbour_lists.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "kernel/cubic_spline.hpp"
+#include "search/spatial_sort.hpp"
+
+namespace gannet {
+
+namespace {
+
+double reach(const SphState& sph) { return cubic_spline::support * sph.h + sph.skin; }
+
+/// Images and list for the positions x_build of the owned particles; everything that is a function
+/// of x_build, so that a restart finds the same.
+void build_from_x_build(SphState& sph, Scene& scene) {
+  const Index n = scene.particles.size();
+  Halo& halo = sph.halo;
+  sph.x_build.resize(static_cast<std::size_t>(n));
+  if (halo.active()) choose_images(sph.x_build.data(), n, reach(sph), halo);
+  resize_ghosts(halo, scene);
+  const auto n_ghosts = static_cast<Index>(halo.source.size());
+  sph.x_build.resize(static_cast<std::size_t>(n + n_ghosts));
+  for (Index g = 0; g < n_ghosts; ++g) {
+    Line& x = sph.x_build[n + g];
+    x = sph.x_build[halo.source[g]];
+    set_xyz(x, xyz(x) + xyz(halo.shift[g]));
+  }
+  copy_out(halo, scene);
+  build_cluster_list(sph.x_build, n, reach(sph), sph.list);
+  start_ageing(sph.x_build, cubic_spline::support * sph.h, sph.skin, sph.dx, sph.age);
+  ++sph.n_builds;
+}
+
+/// Sorting needs numbers. Throws RunError that names the first particle without a position.
+void require_finite(const Scene& scene) {
+  const Index n = scene.particles.size();
+  const Line* x = scene.nodes.x.data() + scene.particles.begin;
+  const Index first = parallel_reduce(
+      n, node_chunk, n,
+      [&](Index begin, Index end) {
+        for (Index k = begin; k < end; ++k) {
+          if (!xyz(x[k]).allFinite()) return k;
+        }
+        return n;
+      },
+      [](Index a, Index b) { return std::min(a, b); });
+  if (first == n) return;
+  throw RunError({"a particle has no position any more (not a number)",
+                  text_of_particle(scene, first),
+                  "its velocity or a force on it grew without limit",
+                  "look at the last frames near that place; a smaller cfl, a larger c0 or some "
+                  "viscosity may help"});
+}
+
+}  // namespace
+
+void rebuild_lists(SphState& sph, Scene& scene) {
+  const Index n = scene.particles.size();
+  require_finite(scene);
+  if (sph.halo.active()) {
+    sph.halo.source.clear();
+    sph.halo.shift.clear();
+    resize_ghosts(sph.halo, scene);
+    wrap_particles(sph.halo, scene);
+  }
+  sort_particles(scene, sph.dx);
+  sph.x_build.resize(static_cast<std::size_t>(n));
+  const Line* x = scene.nodes.x.data() + scene.particles.begin;
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    std::copy(x + begin, x + end, sph.x_build.data() + begin);
+  });
+  build_from_x_build(sph, scene);
+}
+
+void restore_lists(SphState& sph, Scene& scene) { build_from_x_build(sph, scene); }
+
+bool lists_are_stale(SphState& sph, const Scene& scene, double dt_half) {
+  const Line* x = scene.nodes.x.data() + scene.particles.begin;
+  const Line* v = scene.nodes.v.data() + scene.particles.begin;
+  const Index n = scene.particles.size();
+  measure_motion(sph.age, [&](Index source) -> Vec3 {
+    const Index k = source < n ? source : sph.halo.source[source - n];
+    Vec3 d = xyz(x[k]) - xyz(sph.x_build[k]) + dt_half * xyz(v[k]);
+    if (!sph.X.empty()) d += 2 * dt_half * xyz(sph.X[k]);
+    return d;
+  });
+  return outdated(sph.age);
+}
+
+}  // namespace gannet

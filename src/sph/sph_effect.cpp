@@ -1,0 +1,370 @@
+// The effect `sph`: parts made of particles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "mesh/fill.hpp"
+#include "scene/particle_material.hpp"
+#include "sph/effects.hpp"
+#include "sph/neighbour_lists.hpp"
+#include "sph/sph_state.hpp"
+
+namespace gannet {
+
+namespace {
+
+Schema schema() {
+  Key sph{.name = "sph", .kind = Kind::map, .text = "the part is made of particles"};
+  sph.keys = {{.name = "material",
+               .kind = Kind::reference,
+               .text = "the fluid",
+               .required = true,
+               .refers_to = "materials"},
+              {.name = "spacing",
+               .unit = dim::length,
+               .text = "distance of neighbouring particles",
+               .required = true,
+               .limits = positive()},
+              {.name = "kernel",
+               .kind = Kind::choice,
+               .text = "smoothing kernel",
+               .fallback = "cubic_spline",
+               .choices = {"cubic_spline"}},
+              {.name = "smoothing_ratio",
+               .text = "smoothing length h over spacing",
+               .fallback = "1.3",
+               .limits = between(1, 3)},
+              {.name = "cfl",
+               .text = "time step times speed of sound over h, before viscosity",
+               .fallback = "0.7",
+               .limits = between(0.01, 1.5)},
+              {.name = "skin",
+               .text = "how much further than 2 h neighbour lists reach, over spacing",
+               .fallback = "0.26",
+               .limits = between(0.02, 2)}};
+  const Key start{.name = "start",
+                  .kind = Kind::choice,
+                  .text = "pressure at the start: p0 everywhere, or p0 + density g depth",
+                  .choices = {"rest", "hydrostatic"}};
+  const Key surface{.name = "surface",
+                    .unit = dim::length,
+                    .text =
+                        "height of the free surface for a hydrostatic start, measured against "
+                        "gravity from the origin (the top of the part where absent)"};
+  const Key velocity{.name = "initial_velocity",
+                     .kind = Kind::vector,
+                     .unit = dim::velocity,
+                     .text = "velocity at the start"};
+  Schema s = murnaghan_schema();
+  for (const Key& key : {sph, start, surface, velocity}) s.push_back({"parts.*", key});
+  return s;
+}
+
+/// The parts that are made of particles, in file order.
+std::vector<Keys> sph_parts(const Keys& root) {
+  std::vector<Keys> parts;
+  if (!root.has("parts")) return parts;
+  for (const std::string& name : root.map("parts").names()) {
+    const Keys part = root.map("parts").map(name);
+    if (part.has("sph")) parts.push_back(part);
+  }
+  return parts;
+}
+
+/// Notes where a part asks for another particle size than the first one.
+void require_same(const std::vector<Keys>& parts) {
+  for (const char* key : {"spacing", "smoothing_ratio", "cfl", "skin"}) {
+    const double first = parts.front().map("sph").number(key);
+    for (const Keys& part : parts) {
+      const double here = part.map("sph").number(key);
+      if (here == first) continue;
+      part.map("sph").complain(
+          key, fmt::format("{:g} differs from {:g} of '{}': particles of different size in one "
+                           "pool are not built yet",
+                           here, first, parts.front().name()));
+    }
+  }
+}
+
+void add_parts(const Keys& root, Draft& draft) {
+  const std::vector<Keys> parts = sph_parts(root);
+  if (parts.empty()) return;
+  require_same(parts);
+  for (const Keys& part : parts) {
+    const Keys sph = part.map("sph");
+    if (!part.has("fill")) {
+      part.complain("fill", "missing; particles need a region to fill: fill: {box: {from, to}}");
+      continue;
+    }
+    PartDraft p;
+    p.name = part.name();
+    p.kind = "sph";
+    p.material = sph.word("material");
+    p.where = part.where();
+    p.points = fill_points(part, sph.number("spacing"), draft.dimension);
+    if (part.has("initial_velocity")) p.velocity = part.vector("initial_velocity");
+    draft.parts.push_back(std::move(p));
+  }
+}
+
+/// Upwards: against gravity; without it, the last direction of the space.
+Vec3 upwards(const Scene& scene) {
+  if (scene.gravity.norm() > 0) return -scene.gravity.normalized();
+  return scene.dimension == 3 ? Vec3::UnitZ() : Vec3::UnitY();
+}
+
+/// Highest particle of a part (of all, for part < 0) along a direction [m].
+double highest(const Scene& scene, const Vec3& along, int part) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < scene.particles.size(); ++k) {
+    if (part >= 0 && scene.particle_part[k] != part) continue;
+    most = std::max(most, along.dot(xyz(scene.nodes.x[scene.particles.begin + k])));
+  }
+  return most;
+}
+
+/// What the scene itself says about the speed that water may reach: the largest speed at the
+/// start, and sqrt(2 g H) of a column of the particles' height [m/s].
+double speed_of_scene(const Scene& scene, double dx) {
+  double speed = 0;
+  for (const Line& v : scene.nodes.v) speed = std::max(speed, xyz(v).norm());
+  const Vec3 up = upwards(scene);
+  const double height = highest(scene, up, -1) + highest(scene, -up, -1) + dx;
+  return std::max(speed, std::sqrt(2 * scene.gravity.norm() * height));
+}
+
+/// Mass of a particle from the volume that each stands for; notes where parts disagree.
+double particle_mass(const std::vector<Keys>& parts, const Scene& scene, const SphState& sph) {
+  double m = 0;
+  for (const Keys& part : parts) {
+    const double volume = fill_cell_volume(part, sph.dx, scene.dimension);
+    const Murnaghan& eos = sph.eos[scene.part_number(part.name())];
+    const double here = eos.rho0 * volume;
+    if (m == 0) m = here;
+    if (std::abs(here - m) <= 1e-9 * m) continue;
+    part.map("sph").complain(
+        "material", fmt::format("a particle would have {:g} kg here and {:g} kg in '{}': particles "
+                                "of different mass in one pool are not built yet; use one density, "
+                                "and boxes that are whole numbers of spacings",
+                                here, m, parts.front().name()));
+  }
+  return m;
+}
+
+void track_fields(SphState& sph, Scene& scene) {
+  const auto track = [&](Field field) {
+    field.owner = "sph";
+    scene.fields.push_back(std::move(field));
+  };
+  const Over over = Over::particles;
+  track(plain_field("rho", "kg/m^3", "Density", over, sph.rho, 1, GhostRule::copy));
+  track(plain_field("p", "Pa", "Pressure", over, sph.p, 1, GhostRule::copy));
+  track(plain_field("drho_dt", "kg/(m^3 s)", "", over, sph.drho_dt, 1, GhostRule::none));
+  track(plain_field("h", "m", "SmoothingLength", over, sph.smoothing_length, 1, GhostRule::copy));
+  track(line_field("x_build", "m", "", over, sph.x_build, 0, 3, GhostRule::none));
+}
+
+/// Density and pressure of one part at the start.
+void set_start(const Keys& part, SphState& sph, const Scene& scene) {
+  const int number = scene.part_number(part.name());
+  const Murnaghan& eos = sph.eos[number];
+  const bool hydrostatic = part.has("start") && part.word("start") == "hydrostatic";
+  if (hydrostatic && scene.gravity.norm() == 0) {
+    part.complain("start", "hydrostatic needs gravity: loads: {gravity: [0, 0, -9.81 m/s^2]}");
+  }
+  const Vec3 up = upwards(scene);
+  const double surface =
+      part.has("surface") ? part.number("surface") : highest(scene, up, number) + 0.5 * sph.dx;
+  for (Index k = 0; k < scene.particles.size(); ++k) {
+    if (scene.particle_part[k] != number) continue;
+    const double z = up.dot(xyz(scene.nodes.x[scene.particles.begin + k]));
+    const double depth = hydrostatic ? std::max(surface - z, 0.0) : 0.0;
+    sph.rho[k] = density(eos, eos.p0 + eos.rho0 * scene.gravity.norm() * depth);
+    sph.p[k] = pressure(eos, sph.rho[k]);
+  }
+}
+
+void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& sph, Scene& scene) {
+  const double speed = speed_of_scene(scene, sph.dx);
+  auto& materials = scene.store.get<ParticleMaterials>().of_part;
+  materials.resize(std::max(materials.size(), scene.parts.size()));
+  sph.eos.resize(scene.parts.size());
+  for (const Keys& part : parts) {
+    const int number = scene.part_number(part.name());
+    const Keys material = root.map("materials").map(part.map("sph").word("material"));
+    const Murnaghan eos = read_murnaghan(material, speed);
+    const double c0 = sound_speed(eos, eos.rho0);
+    sph.eos[number] = eos;
+    sph.parts.push_back(number);
+    sph.c0 = std::max(sph.c0, c0);
+    materials[number] = {sph.dx, eos.rho0, c0};
+  }
+}
+
+void make_state(const Keys& root, Scene& scene) {
+  const std::vector<Keys> parts = sph_parts(root);
+  if (parts.empty() || scene.particles.empty()) return;
+  auto& sph = scene.store.get<SphState>();
+  const Keys first = parts.front().map("sph");
+  sph.dx = first.number("spacing");
+  const double ratio = first.number("smoothing_ratio");
+  sph.h = ratio * sph.dx;
+  sph.skin = first.number("skin") * sph.dx;
+  sph.cfl = first.number("cfl");
+  sph.limits = lattice_limits(scene.dimension, ratio);
+  read_materials(root, parts, sph, scene);
+  sph.m = particle_mass(parts, scene, sph);
+  const auto n = static_cast<std::size_t>(scene.particles.size());
+  sph.rho.assign(n, 0);
+  sph.p.assign(n, 0);
+  sph.drho_dt.assign(n, 0);
+  sph.smoothing_length.assign(n, sph.h);
+  sph.x_build.assign(n, {});
+  for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
+    scene.nodes.x[i].w = sph.m;
+  }
+  for (const Keys& part : parts) set_start(part, sph, scene);
+  track_fields(sph, scene);
+  scene.after_restart.emplace_back([&sph, &scene] { restore_lists(sph, scene); });
+}
+
+ParticleView view_of(const SphState& sph, const Scene& scene) {
+  const Index first = scene.particles.begin;
+  return {scene.nodes.x.data() + first, scene.nodes.v.data() + first, sph.rho.data(), sph.p.data(),
+          scene.particles.size() + scene.nodes.n_ghosts};
+}
+
+PairParameters parameters_of(const SphState& sph, const Scene& scene) {
+  return {scene.dimension,  sph.h, sph.m, sph.c0, sph.terms.alpha, sph.terms.beta,
+          sph.terms.epsilon};
+}
+
+void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
+  plan.add({.name = "pack particles for the force",
+            .reason = "rule: a pair pass reads one 64-byte line a particle",
+            .stage = Stage::force,
+            .reads = {"x", "v", "rho", "p"},
+            .run = [&](const Step&) { pack_particles(view_of(sph, scene), sph.packed); }});
+  const bool viscous = sph.terms.viscous();
+  std::vector<std::string> writes{"f"};
+  if (viscous) writes.emplace_back("f_viscous");
+  plan.add({.name = viscous ? "particle pair pass: pressure and viscosity"
+                            : "particle pair pass: pressure",
+            .reason = reason,
+            .stage = Stage::force,
+            .reads = {"x", "v", "rho", "p"},
+            .writes = writes,
+            .run =
+                [&, viscous](const Step&) {
+                  Line* f = scene.nodes.f.data() + scene.particles.begin;
+                  pair_force(sph.list, sph.packed, parameters_of(sph, scene),
+                             {f, viscous ? sph.f_viscous.data() : nullptr});
+                },
+            .stable_dt =
+                [&] {
+                  sph.vote = smallest_stable_step(sph, scene);
+                  return sph.vote.dt;
+                },
+            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); }});
+}
+
+void add_lists(SphState& sph, Scene& scene, Plan& plan) {
+  plan.add({.name = "neighbour lists",
+            .reason = fmt::format("rule: made anew when neighbours may have moved by the skin of "
+                                  "{:.3g} m, relative to each other",
+                                  sph.skin),
+            .stage = Stage::half_drift,
+            .reads = {"x", "v"},
+            .writes = {"x_build", "order of particles"},
+            .owns = {"x_build"},
+            .run = [&](const Step& step) {
+              if (lists_are_stale(sph, scene, 0.5 * step.dt)) rebuild_lists(sph, scene);
+            }});
+}
+
+void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
+  plan.add({.name = "pack particles for the rates",
+            .reason = "rule: a pair pass reads one 64-byte line a particle",
+            .stage = Stage::rates,
+            .reads = {"x", "v", "rho"},
+            .run = [&](const Step&) { pack_particles(view_of(sph, scene), sph.packed); }});
+  const bool xsph = sph.terms.epsilon > 0;
+  std::vector<std::string> writes{"drho_dt"};
+  if (xsph) writes.emplace_back("X");
+  plan.add({.name = xsph ? "particle pair pass: density rate and XSPH"
+                         : "particle pair pass: density rate",
+            .reason = reason,
+            .stage = Stage::rates,
+            .reads = {"x", "v", "rho"},
+            .writes = writes,
+            .owns = {"drho_dt"},
+            .run = [&, xsph](const Step&) {
+              pair_rates(sph.list, sph.packed, parameters_of(sph, scene),
+                         {sph.drho_dt.data(), xsph ? sph.X.data() : nullptr});
+            }});
+  plan.add({.name = "density and pressure",
+            .reason = reason,
+            .stage = Stage::rates,
+            .reads = {"drho_dt"},
+            .writes = {"rho", "p"},
+            .owns = {"rho", "p"},
+            .run = [&](const Step& step) { advance_density(sph, scene, step.dt); }});
+}
+
+void add_look(SphState& sph, Scene& scene, Models& models, const std::string& reason) {
+  Plan& plan = models.of_node(scene.particles.begin).plan;
+  std::vector<LedgerEntry*> entries;
+  for (const int part : sph.parts) {
+    entries.push_back(&models.ledger.entry("internal", scene.parts[part].name));
+  }
+  plan.add({.name = "internal energy of particles",
+            .reason = reason,
+            .stage = Stage::look,
+            .reads = {"rho"},
+            .run = [&, entries](const Step&) {
+              for (std::size_t k = 0; k < entries.size(); ++k) {
+                entries[k]->value = internal_energy_of_part(sph, scene, sph.parts[k]);
+              }
+            }});
+  plan.add({.name = "check of the speed of sound",
+            .reason = "rule: every 100 steps, until it warns",
+            .stage = Stage::look,
+            .reads = {"v", "rho"},
+            .run = [&](const Step& step) {
+              if (sph.warned || step.n % 100 != 0) return;
+              const std::string warning = sound_speed_warning(sph, scene, step.dt);
+              if (warning.empty()) return;
+              scene.warnings.push_back(fmt::format("t = {:.6g} s: {}", step.t, warning));
+              sph.warned = true;
+            }});
+}
+
+void add_operations(const Keys& root, Scene& scene, Models& models) {
+  const std::vector<Keys> parts = sph_parts(root);
+  if (parts.empty() || scene.particles.empty()) return;
+  auto& sph = scene.store.get<SphState>();
+  const std::string reason = asked_for_at(parts.front().where("sph"));
+  Plan& plan = models.of_node(scene.particles.begin).plan;
+  // The first force pass needs lists: all states are there by now, so sorting permutes them all.
+  rebuild_lists(sph, scene);
+  add_force(sph, scene, plan, reason);
+  add_look(sph, scene, models, reason);
+  add_lists(sph, scene, plan);
+  add_rates(sph, scene, plan, reason);
+}
+
+}  // namespace
+
+Effect sph_effect() {
+  return {.name = "sph",
+          .schema = schema,
+          .parts = add_parts,
+          .state = make_state,
+          .operations = add_operations};
+}
+
+}  // namespace gannet

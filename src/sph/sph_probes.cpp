@@ -1,0 +1,125 @@
+// The effect `sph_probes`: gauges in the water, as measures of the scene.
+#include <array>
+#include <string>
+#include <utility>
+
+#include "sph/effects.hpp"
+#include "sph/probe_functions.hpp"
+
+namespace gannet {
+
+namespace {
+
+Schema schema() {
+  Key pressure{.name = "pressure", .kind = Kind::map, .text = "pressure in the water at a point"};
+  pressure.keys = {{.name = "at",
+                    .kind = Kind::vector,
+                    .unit = dim::length,
+                    .text = "the point",
+                    .required = true}};
+  Key height{.name = "surface_height",
+             .kind = Kind::map,
+             .text = "height of the water's surface on a vertical line, from the origin"};
+  height.keys = {{.name = "at",
+                  .kind = Kind::numbers,
+                  .unit = dim::length,
+                  .text = "where the line stands: [x, y], in a plane case [x]",
+                  .required = true}};
+  Key front{.name = "front", .kind = Kind::map, .text = "how far the water of a part reaches"};
+  front.keys = {{.name = "axis",
+                 .kind = Kind::choice,
+                 .text = "direction",
+                 .fallback = "x",
+                 .choices = {"x", "y", "z"}},
+                {.name = "part",
+                 .kind = Kind::reference,
+                 .text = "part that is made of particles",
+                 .required = true,
+                 .refers_to = "parts"}};
+  Schema s;
+  for (const Key& key : {pressure, height, front}) s.push_back({"probes.*", key});
+  return s;
+}
+
+/// The direction that heights are measured along: the axis nearest to "against gravity".
+Eigen::Index vertical(const Scene& scene) {
+  Eigen::Index axis = scene.dimension - 1;
+  if (scene.gravity.norm() > 0) scene.gravity.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+/// A point of the line of a surface gauge; its coordinates fill the horizontal axes in order.
+Vec3 foot_of(const Keys& gauge, Eigen::Index up, int dimension) {
+  const std::vector<double>& at = gauge.numbers("at");
+  Vec3 foot = Vec3::Zero();
+  if (static_cast<int>(at.size()) != dimension - 1) {
+    gauge.complain("at", dimension == 3 ? "two numbers are wanted: [x, y]"
+                                        : "one number is wanted in a plane case: [x]");
+    return foot;
+  }
+  std::size_t next = 0;
+  for (Eigen::Index d = 0; d < dimension; ++d) {
+    if (d != up) foot[d] = at[next++];
+  }
+  return foot;
+}
+
+void add_surface(const Keys& gauge, Measure measure, Scene& scene) {
+  const Eigen::Index axis = vertical(scene);
+  const double sense = scene.gravity[axis] > 0 ? -1 : 1;
+  const Vec3 foot = foot_of(gauge, axis, scene.dimension);
+  const Vec3 up = sense * Vec3::Unit(axis);
+  measure.unit = "m";
+  measure.sample = [&scene, foot, up](double* value) {
+    *value = surface_height_on(scene.store.get<SphState>(), scene, foot, up);
+  };
+  scene.measures.push_back(std::move(measure));
+}
+
+void add_front(const Keys& gauge, Measure measure, Scene& scene) {
+  const int part = scene.part_number(gauge.word("part"));
+  if (part < 0 || !scene.parts[part].is_particles()) {
+    gauge.complain("part", "'" + gauge.word("part") + "' is not made of particles");
+    return;
+  }
+  const int axis = gauge.word("axis")[0] - 'x';
+  measure.unit = "m";
+  measure.sample = [&scene, part, axis](double* value) {
+    *value = front_of_part(scene, part, axis);
+  };
+  scene.measures.push_back(std::move(measure));
+}
+
+void add_pressure(const Keys& gauge, Measure measure, Scene& scene) {
+  const Vec3 at = gauge.vector("at");
+  measure.unit = "Pa";
+  measure.sample = [&scene, at](double* value) {
+    *value = pressure_at(scene.store.get<SphState>(), scene, at);
+  };
+  scene.measures.push_back(std::move(measure));
+}
+
+void make_state(const Keys& root, Scene& scene) {
+  using Add = void (*)(const Keys&, Measure, Scene&);
+  const std::array<std::pair<const char*, Add>, 3> kinds{
+      {{"pressure", add_pressure}, {"surface_height", add_surface}, {"front", add_front}}};
+  if (!root.has("probes")) return;
+  for (const std::string& name : root.map("probes").names()) {
+    const Keys probe = root.map("probes").map(name);
+    for (const auto& [key, add] : kinds) {
+      if (!probe.has(key)) continue;
+      if (scene.particles.empty()) {
+        probe.complain(key, "measures particles, and no part is made of them");
+        continue;
+      }
+      add(probe.map(key),
+          {.name = "probe." + name, .unit = "", .components = {"value"}, .sample = {}}, scene);
+    }
+  }
+}
+
+}  // namespace
+
+Effect sph_probes_effect() { return {.name = "sph_probes", .schema = schema, .state = make_state}; }
+
+}  // namespace gannet
