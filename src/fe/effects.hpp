@@ -1,0 +1,13 @@
+// The effects of this room, for the table of effects.
+#pragma once
+
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+/// parts.NAME.shell: {material, thickness, points, hourglass, ...}: parts made of 4-node shells
+/// over the surface that the part's `shape` or `mesh` gives. Also brings the keys of solids under
+/// "materials.*".
+Effect shell_effect();
+
+}  // namespace gannet

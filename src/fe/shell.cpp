@@ -1,0 +1,223 @@
+#include "fe/shell.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/math.hpp"
+#include "base/parallel.hpp"
+#include "fe/gauss.hpp"
+
+namespace gannet {
+
+namespace {
+
+ShellConstants make_constants(const ElasticPlastic& material, const ShellSection& section) {
+  ShellConstants c;
+  c.law = plane_stress_law(material);
+  c.plastic = material.plastic();
+  c.thickness_changes = section.thickness_changes;
+  c.viscous_hourglass = section.hourglass == HourglassForm::viscous;
+  c.n_points = section.points;
+  const GaussRule rule = gauss_rule(section.points);
+  for (int k = 0; k < section.points; ++k) {
+    c.point[k] = rule.point[static_cast<std::size_t>(k)];
+    c.weight[k] = 0.5 * rule.weight[static_cast<std::size_t>(k)];
+  }
+  c.shear_factor = section.shear_factor;
+  const double r = section.hourglass_coefficient;
+  c.hourglass_membrane = r * material.E / 8;
+  c.hourglass_bending = r * material.E / 192;
+  c.hourglass_warp = r * section.shear_factor * material.G() / 12;
+  c.inverse_wave_speed = std::sqrt(material.rho * (1 - material.nu * material.nu) / material.E);
+  c.membrane_modulus = material.E / (1 - std::abs(material.nu));
+  c.nodal_mass_factor = material.rho * section.thickness / 4;
+  c.thickness = section.thickness;
+  return c;
+}
+
+Vec3 corner(std::span<const Line> x, Index node) { return xyz(x[static_cast<std::size_t>(node)]); }
+
+/// e1, e2, e3 as columns, and the area: the same frame as in shell_element.hpp.
+struct ElementFrame {
+  Mat3 axes;
+  double area = 0;
+};
+
+ElementFrame frame_of(const ShellBlock& block, Index e, std::span<const Line> x) {
+  Vec3 p[4];
+  for (int a = 0; a < 4; ++a) {
+    p[a] = corner(x, block.corners[static_cast<std::size_t>(32 * (e / 8) + 8 * a + e % 8)]);
+  }
+  const Vec3 n = (p[2] - p[0]).cross(p[3] - p[1]);
+  ElementFrame frame;
+  frame.area = 0.5 * n.norm();
+  const Vec3 e3 = n.normalized();
+  const Vec3 side = p[1] - p[0];
+  const Vec3 e1 = (side - side.dot(e3) * e3).normalized();
+  frame.axes << e1, e3.cross(e1), e3;
+  return frame;
+}
+
+/// Corners by block; the empty lanes of the last block repeat the last element.
+void fill_corners(ShellBlock& block, std::span<const Index> connectivity) {
+  block.corners.assign(static_cast<std::size_t>(block.n_blocks()) * 32, 0);
+  for (Index lane = 0; lane < 8 * block.n_blocks(); ++lane) {
+    const auto e = static_cast<std::size_t>(std::min(lane, block.n_elements - 1));
+    for (std::size_t a = 0; a < 4; ++a) {
+      block.corners[static_cast<std::size_t>(32 * (lane / 8) + lane % 8) + 8 * a] =
+          connectivity[4 * e + a];
+    }
+  }
+}
+
+/// Thickness 0 in the empty lanes makes all their forces, energies and votes vanish.
+void fill_state(ShellBlock& block, std::span<const Line> x) {
+  const int n = block.layout.n_values();
+  block.state.assign(static_cast<std::size_t>(block.n_blocks() * n) * 8, 0);
+  for (Index e = 0; e < 8 * block.n_blocks(); ++e) {
+    const double area = frame_of(block, e, x).area;
+    if (!(area > 0)) {
+      throw std::invalid_argument("element " + std::to_string(e + 1) + " has no area");
+    }
+    block.value(e, block.layout.inverse_area()) = 1 / area;
+    block.value(e, block.layout.thickness()) = e < block.n_elements ? block.section.thickness : 0.0;
+  }
+}
+
+void run_chunk(ShellBlock& block, const ShellPass& pass, Index chunk, Isa set) {
+  const Index per_chunk = block.colouring.chunk / 8;
+  const Index begin = chunk * per_chunk;
+  const Index end = std::min(block.n_blocks(), begin + per_chunk);
+  ShellSums& sums = block.sums[static_cast<std::size_t>(chunk)];
+  if (set == Isa::avx512) {
+    avx512::shell_force(pass, begin, end, sums);
+  } else {
+    avx2::shell_force(pass, begin, end, sums);
+  }
+}
+
+/// Local stress at the middle surface of element e: the point at z = 0 or the two next to it.
+Mat3 middle_stress(const ShellBlock& block, Index e) {
+  const int n = block.layout.n_points;
+  const int lower = (n - 1) / 2;
+  const int upper = n / 2;
+  const auto at = [&](int component) {
+    return 0.5 * (block.value(e, lower * block.layout.per_point + component) +
+                  block.value(e, upper * block.layout.per_point + component));
+  };
+  const double xz = block.value(e, block.layout.shear());
+  const double yz = block.value(e, block.layout.shear() + 1);
+  Mat3 s;
+  s << at(0), at(2), xz, at(2), at(1), yz, xz, yz, 0;
+  return s;
+}
+
+}  // namespace
+
+ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const Line> x,
+                            const ElasticPlastic& material, const ShellSection& section,
+                            Index chunk) {
+  assert(section.thickness > 0 && section.points >= 1 && section.points <= max_shell_points);
+  assert(chunk > 0 && chunk % 8 == 0);
+  ShellBlock block;
+  block.material = material;
+  block.section = section;
+  block.constants = make_constants(material, section);
+  block.layout = {section.points, material.plastic() ? 4 : 3};
+  block.n_elements = static_cast<Index>(connectivity.size() / 4);
+  fill_corners(block, connectivity);
+  fill_state(block, x);
+  block.colouring = colour_chunks(connectivity, 4, chunk);
+  block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
+  return block;
+}
+
+void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
+  const double t = block.section.thickness;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    const double area = 1 / block.value(e, block.layout.inverse_area());
+    const double mass = block.constants.nodal_mass_factor * area;
+    const double alpha = std::max(t * t / 12, area / 8);
+    for (int a = 0; a < 4; ++a) {
+      const auto node = static_cast<std::size_t>(
+          block.corners[static_cast<std::size_t>(32 * (e / 8) + 8 * a + e % 8)]);
+      nodes.x[node].w += mass;
+      nodes.torque[node].w += alpha * mass;
+    }
+  }
+}
+
+ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
+  const ShellPass pass{.constants = &block.constants,
+                       .layout = block.layout,
+                       .x = &nodes.x.data()->x,
+                       .v = &nodes.v.data()->x,
+                       .omega = &nodes.omega.data()->x,
+                       .f = &nodes.f.data()->x,
+                       .torque = &nodes.torque.data()->x,
+                       .corners = block.corners.data(),
+                       .state = block.state.data(),
+                       .dt = dt_old};
+  for (const std::vector<Index>& colour : block.colouring.colours) {
+    parallel_for(static_cast<Index>(colour.size()), 1, [&](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k) {
+        run_chunk(block, pass, colour[static_cast<std::size_t>(k)], set);
+      }
+    });
+  }
+  ShellWork work;
+  block.omega2 = 0;
+  block.limiting = -1;
+  for (const ShellSums& s : block.sums) {
+    work.internal += s.internal;
+    work.plastic += s.plastic;
+    work.hourglass += s.hourglass;
+    if (s.omega2 <= block.omega2) continue;
+    block.omega2 = s.omega2;
+    block.limiting = s.element;
+  }
+  return work;
+}
+
+double stable_step(const ShellBlock& block) {
+  return block.section.dt_factor * 2 / std::sqrt(block.omega2);
+}
+
+void show_stress(ShellBlock& block, std::span<const Line> x) {
+  block.stress_shown.resize(6 * static_cast<std::size_t>(block.n_elements));
+  parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
+    for (Index e = begin; e < end; ++e) {
+      const Mat3 R = frame_of(block, e, x).axes;
+      const Mat3 s = R * middle_stress(block, e) * R.transpose();
+      double* out = &block.stress_shown[6 * static_cast<std::size_t>(e)];
+      out[0] = s(0, 0);
+      out[1] = s(1, 1);
+      out[2] = s(2, 2);
+      out[3] = s(0, 1);
+      out[4] = s(1, 2);
+      out[5] = s(0, 2);
+    }
+  });
+}
+
+void show_plastic_strain(ShellBlock& block) {
+  assert(block.material.plastic());
+  block.plastic_shown.assign(static_cast<std::size_t>(block.n_elements), 0);
+  parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
+    for (Index e = begin; e < end; ++e) {
+      double& eps_p = block.plastic_shown[static_cast<std::size_t>(e)];
+      for (int k = 0; k < block.layout.n_points; ++k) {
+        eps_p = std::max(eps_p, block.value(e, 4 * k + 3));
+      }
+    }
+  });
+}
+
+PlaneStress<double> stress_at(const ShellBlock& block, Index e, int k) {
+  const int first = k * block.layout.per_point;
+  return {block.value(e, first), block.value(e, first + 1), block.value(e, first + 2)};
+}
+
+}  // namespace gannet

@@ -1,0 +1,106 @@
+// A block of shells: the elements of one part, their state, and one pass over them.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/array.hpp"
+#include "base/isa.hpp"
+#include "fe/colouring.hpp"
+#include "fe/shell_kernel.hpp"
+#include "material/elastic_plastic.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+enum class HourglassForm { stiffness, viscous };
+
+/// What makes a surface a shell.
+struct ShellSection {
+  double thickness = 0;  ///< [m], > 0
+  int points = 5;        ///< Gauss points through the thickness, 1..7
+  HourglassForm hourglass = HourglassForm::stiffness;
+  double hourglass_coefficient = 0.03;  ///< r, see shell_element.hpp
+  double shear_factor = 5.0 / 6.0;      ///< kappa
+  bool thickness_changes = false;
+  double dt_factor = 0.9;  ///< share of the stable step that is voted for
+};
+
+/// The shells of one part. Made by make_shell_block(); the state changes with every pass.
+struct ShellBlock {
+  std::string name;
+  int part = -1;  ///< number of the part in the scene; -1 where there is none
+  ElasticPlastic material;
+  ShellSection section;
+  ShellConstants constants;
+  ShellLayout layout;
+  Index n_elements = 0;
+  Array<Index> corners;  ///< 32 a block of 8: corner a of lane l at 8 a + l
+  Array<double> state;   ///< layout.n_values() * 8 a block
+  ChunkColours colouring;
+  std::vector<ShellSums> sums;  ///< one a chunk, of the last pass
+  double omega2 = 0;            ///< of the last pass [1/s^2]
+  Index limiting = -1;          ///< the element it belongs to
+  Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
+  Array<double> plastic_shown;  ///< largest eps_p over the points [-]
+  [[nodiscard]] Index n_blocks() const { return (n_elements + 7) / 8; }
+  /// Number k of element e.
+  [[nodiscard]] double& value(Index e, int k) {
+    return state[static_cast<std::size_t>(((e / 8) * layout.n_values() + k) * 8 + e % 8)];
+  }
+  [[nodiscard]] double value(Index e, int k) const {
+    return state[static_cast<std::size_t>(((e / 8) * layout.n_values() + k) * 8 + e % 8)];
+  }
+};
+
+/// All shell blocks of a scene (scene.store.get<ShellBlocks>()); addresses never change.
+struct ShellBlocks {
+  std::deque<ShellBlock> list;
+};
+
+/// Energies that a pass added, and nothing else [J].
+struct ShellWork {
+  double internal = 0;
+  double plastic = 0;
+  double hourglass = 0;
+};
+
+/// Elements per chunk of the coloured passes.
+inline constexpr Index shell_chunk = 512;
+
+/// Sets a block up, stress-free in the positions at hand.
+/// connectivity: 4 node indices an element, counter-clockwise seen from the positive side; a
+/// triangle repeats its last node. x: positions of the nodes [m].
+/// Needs thickness > 0, 1 to 7 points. Throws std::invalid_argument that names the element where
+/// one has no area.
+ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const Line> x,
+                            const ElasticPlastic& material, const ShellSection& section,
+                            Index chunk = shell_chunk);
+
+/// Adds the mass (rho t A/4) and the rotary inertia (mass times alpha) of each element to its
+/// corners: nodes.x.w and nodes.torque.w. alpha = max(t^2/12, A/8) replaces the true t^2/12 of thin
+/// shells, so that rotations do not limit the step; what it adds acts on wave lengths of the size
+/// of an element only.
+void add_shell_masses(const ShellBlock& block, Nodes& nodes);
+
+/// One pass: stress to n, forces at n added to nodes.f and nodes.torque (see shell_kernel.hpp).
+/// dt_old: t(n) - t(n-1) [s]. set: instruction set. The bits depend on no number of threads.
+ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set = isa());
+
+/// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound.
+double stable_step(const ShellBlock& block);
+
+/// Fills stress_shown from the state: global xx, yy, zz, xy, yz, xz at the middle surface (the
+/// point there, or the mean of the two nearest), in the frame at positions x [m].
+void show_stress(ShellBlock& block, std::span<const Line> x);
+
+/// Fills plastic_shown from the state. Needs a plastic material.
+void show_plastic_strain(ShellBlock& block);
+
+/// Stress of point k (0 is the lowest) of element e in the frame of the element: xx, yy, xy [Pa].
+PlaneStress<double> stress_at(const ShellBlock& block, Index e, int k);
+
+}  // namespace gannet

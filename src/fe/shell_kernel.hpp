@@ -1,0 +1,79 @@
+// The shell kernel as the rest of the program sees it: plain data in, forces and sums out. It is
+// compiled once per instruction set (shell_kernel.isa.cpp); shell.hpp is the way to call it.
+#pragma once
+
+#include <cstdint>
+
+#include "material/plane_stress.hpp"
+
+namespace gannet {
+
+inline constexpr int max_shell_points = 7;
+
+/// What the elements of one block have in common.
+struct ShellConstants {
+  PlaneStressLaw law;
+  bool plastic = false;
+  bool thickness_changes = false;
+  bool viscous_hourglass = false;
+  int n_points = 5;                      ///< through the thickness
+  double point[max_shell_points] = {};   ///< z / (t/2) of the points, in (-1, 1)
+  double weight[max_shell_points] = {};  ///< of the points, adding up to 1
+  double shear_factor = 5.0 / 6.0;       ///< kappa
+  /// Hourglass stiffness per unit of geometry (see hourglass() in shell_element.hpp) [Pa].
+  double hourglass_membrane = 0;
+  double hourglass_warp = 0;
+  double hourglass_bending = 0;
+  double inverse_wave_speed = 0;  ///< for the viscous form: sqrt(rho (1 - nu^2) / E) [s/m]
+  double membrane_modulus = 0;    ///< largest eigenvalue of C: E / (1 - |nu|) [Pa]
+  double nodal_mass_factor = 0;   ///< rho t0 / 4 [kg/m^2]: nodal mass = factor * A0
+  double thickness = 0;           ///< t0 [m]
+};
+
+/// Where the numbers of an element stand in its block: number k of lane l is at
+/// state[(block * n_values + k) * 8 + l].
+struct ShellLayout {
+  int n_points = 5;
+  int per_point = 4;  ///< sigma_xx, sigma_yy, sigma_xy [Pa], eps_p [-] (3 where elastic)
+  [[nodiscard]] int shear() const { return n_points * per_point; }    ///< sigma_xz, sigma_yz [Pa]
+  [[nodiscard]] int hourglass() const { return shear() + 2; }         ///< Q1..Q3 [N], Q4, Q5 [N m]
+  [[nodiscard]] int thickness() const { return hourglass() + 5; }     ///< t [m]; 0 in empty lanes
+  [[nodiscard]] int inverse_area() const { return thickness() + 1; }  ///< 1/A0 [1/m^2]
+  [[nodiscard]] int n_values() const { return inverse_area() + 1; }
+};
+
+/// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
+struct ShellPass {
+  const ShellConstants* constants = nullptr;
+  ShellLayout layout;
+  const double* x = nullptr;              ///< lines: position at n [m]
+  const double* v = nullptr;              ///< lines: velocity at n-1/2 [m/s]
+  const double* omega = nullptr;          ///< lines: angular velocity at n-1/2 [rad/s]
+  double* f = nullptr;                    ///< lines: forces are added [N]
+  double* torque = nullptr;               ///< lines: moments are added [N m]
+  const std::int32_t* corners = nullptr;  ///< 32 a block: corner a of lane l at 8 a + l
+  double* state = nullptr;
+  double dt = 0;  ///< t(n) - t(n-1) [s]
+};
+
+/// What a pass adds up over its elements.
+struct ShellSums {
+  double internal = 0;        ///< [J], trapezoid of stress over the strain increment
+  double plastic = 0;         ///< [J], part of it that plastic flow took
+  double hourglass = 0;       ///< [J]
+  double omega2 = 0;          ///< largest bound of an element's squared frequency [1/s^2]
+  std::int32_t element = -1;  ///< whose it is: 8 block + lane
+};
+
+/// One fused pass over blocks [begin, end): strain increment from v(n-1/2) in the midpoint
+/// configuration x(n) - v dt/2, stress to n, forces at the geometry of n added to f and torque.
+/// Needs valid node indices in every lane (empty lanes repeat an element and have thickness 0),
+/// arrays aligned to 64 bytes. Throws nothing. The element: shell_element.hpp.
+namespace avx2 {
+void shell_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
+}
+namespace avx512 {
+void shell_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
+}
+
+}  // namespace gannet
