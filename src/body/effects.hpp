@@ -1,0 +1,26 @@
+// The effects of this room, for the table of effects.
+#pragma once
+
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+/// loads.gravity: [gx, gy, gz]
+Effect gravity_effect();
+
+/// boundaries.NAME.planes and boundaries.NAME.plane: rigid walls, data of the scene.
+Effect planes_effect();
+
+/// boundaries.NAME: {nodes, fix, velocity, angular_velocity, factor}: prescribed motion.
+Effect prescribed_motion_effect();
+
+/// loads.NAME.pressure: follower pressure on the cells of a surface.
+Effect pressure_effect();
+
+/// loads.NAME.force: a total force spread evenly over a set of nodes.
+Effect nodal_force_effect();
+
+/// probes.NAME: displacement and velocity of nodes, force of a contact or a boundary.
+Effect probes_effect();
+
+}  // namespace gannet

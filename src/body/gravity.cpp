@@ -1,0 +1,111 @@
+// Gravity: f += m g for every node, and its work.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "body/effects.hpp"
+
+namespace gannet {
+
+namespace {
+
+/// The nodes of one part that move with one model, and where their work is written down.
+struct Share {
+  int part = 0;
+  Range nodes;
+  bool mixed = false;  ///< particles of several parts lie in this range
+  LedgerEntry* work = nullptr;
+};
+
+void add_weight(Nodes& nodes, const Range& r, const Vec3& g) {
+  parallel_for(r.size(), node_chunk, [&](Index a, Index b) {
+    for (Index i = r.begin + a; i < r.begin + b; ++i) {
+      const double m = nodes.x[static_cast<std::size_t>(i)].w;
+      add_xyz(nodes.f[static_cast<std::size_t>(i)], m * g);
+    }
+  });
+}
+
+/// Work of the weight of a share along the path of level n: sum m g . work_path [J].
+double work_of_weight(const Scene& scene, const Share& share, const Step& step) {
+  const Nodes& nodes = scene.nodes;
+  return parallel_sum(share.nodes.size(), node_chunk, [&](Index a, Index b) {
+    double work = 0;
+    for (Index i = share.nodes.begin + a; i < share.nodes.begin + b; ++i) {
+      if (share.mixed &&
+          scene.particle_part[static_cast<std::size_t>(i - scene.particles.begin)] != share.part) {
+        continue;
+      }
+      work += nodes.x[static_cast<std::size_t>(i)].w * scene.gravity.dot(work_path(nodes, i, step));
+    }
+    return work;
+  });
+}
+
+std::vector<Share> shares_of(const Scene& scene, const Model& model, Ledger& ledger) {
+  const auto n_particle_parts = std::count_if(scene.parts.begin(), scene.parts.end(),
+                                              [](const Part& p) { return p.is_particles(); });
+  std::vector<Share> shares;
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    const Part& part = scene.parts[p];
+    // Particles are sorted among all particles, whatever their part.
+    const Range all = part.is_particles() ? scene.particles : part.nodes;
+    for (const Range& r : model.ranges) {
+      const Range mine{std::max(r.begin, all.begin), std::min(r.end, all.end)};
+      if (mine.empty()) continue;
+      LedgerEntry& work = ledger.entry("gravity", part.name);
+      work.external = true;
+      shares.push_back(
+          {static_cast<int>(p), mine, part.is_particles() && n_particle_parts > 1, &work});
+    }
+  }
+  return shares;
+}
+
+Schema schema() {
+  return {{"loads", Key{.name = "gravity",
+                        .kind = Kind::vector,
+                        .unit = dim::acceleration,
+                        .text = "acceleration of gravity: [0, 0, -9.81 m/s^2]"}}};
+}
+
+bool asked_for(const Keys& root) { return root.has("loads") && root.map("loads").has("gravity"); }
+
+void state(const Keys& root, Scene& scene) {
+  if (asked_for(root)) scene.gravity = root.map("loads").vector("gravity");
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!asked_for(root)) return;
+  const std::string reason = asked_for_at(root.map("loads").where("gravity"));
+  for (Model& model : models.list) {
+    const std::vector<Range> ranges = model.ranges;
+    model.plan.add({.name = "gravity",
+                    .reason = reason,
+                    .stage = Stage::force,
+                    .reads = {"m"},
+                    .writes = {"f"},
+                    .run = [&scene, ranges](const Step&) {
+                      for (const Range& r : ranges) add_weight(scene.nodes, r, scene.gravity);
+                    }});
+    const std::vector<Share> shares = shares_of(scene, model, models.ledger);
+    model.plan.add({.name = "work of gravity",
+                    .reason = reason,
+                    .stage = Stage::look,
+                    .reads = {"v", "f", "m"},
+                    .run = [&scene, shares](const Step& step) {
+                      for (const Share& share : shares) {
+                        share.work->add_work(work_of_weight(scene, share, step), step);
+                      }
+                    }});
+  }
+}
+
+}  // namespace
+
+Effect gravity_effect() {
+  return {.name = "gravity", .schema = schema, .state = state, .operations = operations};
+}
+
+}  // namespace gannet

@@ -1,0 +1,123 @@
+#include "body/pressure.hpp"
+
+#include <cassert>
+
+#include "base/parallel.hpp"
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr Index chunk = 1024;
+
+void push_cells(PressureLoad& load, const Scene& scene, double p) {
+  const Part& part = scene.parts[static_cast<std::size_t>(load.part)];
+  const auto n = static_cast<std::size_t>(nodes_per(part.cell));
+  const auto corner = [&](std::size_t k) {
+    return xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[k])]);
+  };
+  parallel_for(part.n_cells(), chunk, [&](Index begin, Index end) {
+    for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
+      const std::size_t k = c * n;
+      Line* to = load.corner_force.data() + k;
+      if (n == 4) {
+        const auto force =
+            pressure_on_quad(p, {corner(k), corner(k + 1), corner(k + 2), corner(k + 3)});
+        for (std::size_t a = 0; a < 4; ++a) set_xyz(to[a], force[a]);
+      } else {
+        const auto force = pressure_on_triangle(p, {corner(k), corner(k + 1), corner(k + 2)});
+        for (std::size_t a = 0; a < 3; ++a) set_xyz(to[a], force[a]);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::array<Vec3, 4> pressure_on_quad(double p, const std::array<Vec3, 4>& x) {
+  constexpr std::array<double, 4> xi{-1, 1, 1, -1};
+  constexpr std::array<double, 4> eta{-1, -1, 1, 1};
+  const Vec3 b = 0.25 * ((x[1] - x[0]) + (x[2] - x[3]));
+  const Vec3 c = 0.25 * ((x[3] - x[0]) + (x[2] - x[1]));
+  const Vec3 d = 0.25 * ((x[0] - x[1]) + (x[2] - x[3]));
+  const Vec3 bc = p * b.cross(c);
+  const Vec3 bd = p / 3 * b.cross(d);
+  const Vec3 dc = p / 3 * d.cross(c);
+  std::array<Vec3, 4> force;
+  for (std::size_t a = 0; a < 4; ++a) force[a] = bc + xi[a] * bd + eta[a] * dc;
+  return force;
+}
+
+std::array<Vec3, 3> pressure_on_triangle(double p, const std::array<Vec3, 3>& x) {
+  const Vec3 third = p / 6 * (x[1] - x[0]).cross(x[2] - x[0]);
+  return {third, third, third};
+}
+
+void prepare(PressureLoad& load, const Scene& scene) {
+  const Part& part = scene.parts[static_cast<std::size_t>(load.part)];
+  assert(part.cell == Cell::quad || part.cell == Cell::triangle);
+  const auto n_nodes = static_cast<std::size_t>(part.nodes.size());
+  const auto local = [&](Index node) { return static_cast<std::size_t>(node - part.nodes.begin); };
+  load.first.assign(n_nodes + 1, 0);
+  for (const Index node : part.connectivity) ++load.first[local(node) + 1];
+  for (std::size_t k = 0; k < n_nodes; ++k) load.first[k + 1] += load.first[k];
+  load.corners.resize(part.connectivity.size());
+  std::vector<Index> next(load.first.begin(), load.first.end() - 1);
+  for (std::size_t k = 0; k < part.connectivity.size(); ++k) {
+    Index& slot = next[local(part.connectivity[k])];
+    load.corners[static_cast<std::size_t>(slot++)] = static_cast<Index>(k);
+  }
+  load.corner_force.assign(part.connectivity.size(), {});
+  load.force.assign(n_nodes, {});
+}
+
+void add_pressure(PressureLoad& load, Scene& scene, double t) {
+  const Range nodes = scene.parts[static_cast<std::size_t>(load.part)].nodes;
+  push_cells(load, scene, load.side * value_at(load.pressure, t));
+  parallel_for(nodes.size(), chunk, [&](Index begin, Index end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      Vec3 sum = Vec3::Zero();
+      for (Index e = load.first[k]; e < load.first[k + 1]; ++e) {
+        const Index corner = load.corners[static_cast<std::size_t>(e)];
+        sum += xyz(load.corner_force[static_cast<std::size_t>(corner)]);
+      }
+      set_xyz(load.force[k], sum);
+      add_xyz(scene.nodes.f[static_cast<std::size_t>(nodes.begin) + k], sum);
+    }
+  });
+}
+
+double work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step) {
+  const Range nodes = scene.parts[static_cast<std::size_t>(load.part)].nodes;
+  return parallel_sum(nodes.size(), chunk, [&](Index begin, Index end) {
+    double work = 0;
+    for (Index k = begin; k < end; ++k) {
+      work += xyz(load.force[static_cast<std::size_t>(k)])
+                  .dot(work_path(scene.nodes, nodes.begin + k, step));
+    }
+    return work;
+  });
+}
+
+void add_pressure_load(PressureLoad& load, Scene& scene, Models& models) {
+  prepare(load, scene);
+  Model& model = models.of_part(scene, load.part);
+  LedgerEntry& work = models.ledger.entry("pressure load", load.name);
+  work.external = true;
+  model.plan.add({.name = "pressure " + load.name,
+                  .reason = asked_for_at(load.where),
+                  .stage = Stage::force,
+                  .reads = {"x"},
+                  .writes = {"f"},
+                  .run = [&load, &scene](const Step& step) { add_pressure(load, scene, step.t); }});
+  model.plan.add({.name = "work of " + load.name,
+                  .reason = asked_for_at(load.where),
+                  .stage = Stage::look,
+                  .reads = {"v", "f"},
+                  .run = [&load, &scene, &work](const Step& step) {
+                    work.add_work(work_of_pressure(load, scene, step), step);
+                  }});
+}
+
+}  // namespace gannet

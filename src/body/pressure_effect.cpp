@@ -1,0 +1,103 @@
+// How a case asks for a pressure: loads.NAME.pressure: {on, value or table, side, from, ramp}.
+#include <fmt/format.h>
+
+#include <deque>
+
+#include "body/effects.hpp"
+#include "body/pressure.hpp"
+
+namespace gannet {
+
+namespace {
+
+struct PressureLoads {
+  std::deque<PressureLoad> list;
+};
+
+Schema schema() {
+  Key pressure{.name = "pressure",
+               .kind = Kind::map,
+               .text = "pressure on a surface; it follows the surface as it moves and turns"};
+  pressure.keys = {
+      Key{.name = "on",
+          .kind = Kind::reference,
+          .text = "the part with the surface",
+          .required = true,
+          .refers_to = "parts"},
+      Key{.name = "value", .unit = dim::pressure, .text = "the pressure"},
+      table_key("table", "pressure in time: [[0 s, 0 Pa], [1 ms, 2 kPa]]"),
+      Key{.name = "side",
+          .kind = Kind::choice,
+          .text = "the side it acts on: front is where the normals point to, and pressure there "
+                  "pushes against them",
+          .fallback = "front",
+          .choices = {"front", "back"}},
+      Key{.name = "from", .unit = dim::time, .text = "when it starts (from the beginning)"},
+      Key{.name = "ramp",
+          .unit = dim::time,
+          .text = "how long it takes to rise evenly to its value",
+          .limits = at_least(0)}};
+  return {{"loads.*", pressure}};
+}
+
+/// p(t) as the case gives it: a table, or a value that starts at `from` and rises within `ramp`.
+TimeTable pressure_in_time(const Keys& pressure) {
+  if (pressure.has("table") == pressure.has("value")) {
+    pressure.complain("value", "a pressure is given by one of value and table");
+    return {};
+  }
+  if (pressure.has("table")) {
+    for (const char* key : {"from", "ramp"}) {
+      if (pressure.given(key)) pressure.complain(key, "goes with value; a table has its own times");
+    }
+    return read_table(pressure, "table", dim::pressure);
+  }
+  const double value = pressure.number("value");
+  if (!pressure.has("from") && !pressure.has("ramp")) return {{0}, {value}};
+  TimeTable table = step_from(pressure.number_or("from", 0), pressure.number_or("ramp", 0));
+  table.y.back() = value;
+  return table;
+}
+
+void read_load(const Keys& keys, const std::string& name, Scene& scene) {
+  PressureLoad load;
+  load.name = name;
+  load.where = keys.where();
+  load.side = keys.word("side") == "back" ? 1 : -1;
+  load.pressure = pressure_in_time(keys);
+  load.part = scene.part_number(keys.word("on"));
+  if (load.part < 0) {
+    keys.complain("on", fmt::format("there is no part '{}'", keys.word("on")));
+    return;
+  }
+  const Part& part = scene.parts[static_cast<std::size_t>(load.part)];
+  if (part.cell != Cell::quad && part.cell != Cell::triangle) {
+    keys.complain("on", fmt::format("part '{}' has no surface for a pressure", part.name));
+    return;
+  }
+  scene.store.get<PressureLoads>().list.push_back(std::move(load));
+}
+
+void state(const Keys& root, Scene& scene) {
+  if (!root.has("loads")) return;
+  const Keys loads = root.map("loads");
+  for (const std::string& name : loads.names()) {
+    if (!loads.value(name).is_map || !loads.map(name).has("pressure")) continue;
+    read_load(loads.map(name).map("pressure"), name, scene);
+  }
+}
+
+void operations(const Keys& /*root*/, Scene& scene, Models& models) {
+  if (!scene.store.has<PressureLoads>()) return;
+  for (PressureLoad& load : scene.store.get<PressureLoads>().list) {
+    add_pressure_load(load, scene, models);
+  }
+}
+
+}  // namespace
+
+Effect pressure_effect() {
+  return {.name = "pressure", .schema = schema, .state = state, .operations = operations};
+}
+
+}  // namespace gannet

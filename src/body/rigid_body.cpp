@@ -1,0 +1,206 @@
+#include "body/rigid_body.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include <cassert>
+#include <limits>
+
+#include "base/error.hpp"
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+namespace {
+
+Quaternion quaternion_of(const Eigen::Vector4d& q) { return {q[3], q[0], q[1], q[2]}; }
+
+/// The matrix of a x ( ).
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+Vec3 torque_on_member(const Nodes& nodes, std::size_t i, const Vec3& centre) {
+  Vec3 torque = (xyz(nodes.x[i]) - centre).cross(xyz(nodes.f[i]));
+  if (nodes.rotating.contains(static_cast<Index>(i))) torque += xyz(nodes.torque[i]);
+  return torque;
+}
+
+/// Gathers what acts on the members to the centre, in their order.
+void gather(RigidBody& body, Nodes& nodes) {
+  const auto c = static_cast<std::size_t>(body.node);
+  const Vec3 centre = xyz(nodes.x[c]);
+  Vec3 force = xyz(nodes.f[c]);
+  Vec3 torque = xyz(nodes.torque[c]);
+  for (const Index member : body.members) {
+    const auto i = static_cast<std::size_t>(member);
+    force += xyz(nodes.f[i]);
+    torque += torque_on_member(nodes, i, centre);
+  }
+  set_xyz(nodes.f[c], force);
+  set_xyz(nodes.torque[c], torque);
+}
+
+[[noreturn]] void fail(const RigidBody& body, const Step& step) {
+  throw RunError(
+      {"the rotation of a rigid body could not be found", body.name,
+       fmt::format("at t = {:.6g} s, step {}: angular momentum {:.6g} kg m^2/s, step {:.6g} s",
+                   step.t, step.n, body.L.norm(), step.dt),
+       "look for forces that grow without bound on its nodes"});
+}
+
+void kick(RigidBody& body, Nodes& nodes, const Step& step) {
+  const auto c = static_cast<std::size_t>(body.node);
+  body.dt_kick = 0.5 * (step.dt_old + step.dt);
+  body.torque = xyz(nodes.torque[c]);
+  body.L += body.dt_kick * body.torque;
+  const Quaternion q = quaternion_of(body.q);
+  const FreeRotation turn = rotate_freely(q, body.L, body.inverse_inertia, step.dt);
+  if (!turn.settled) fail(body, step);
+  body.q_next = turn.q;
+  set_xyz(nodes.omega[c], turn.omega);
+  const Vec3 v_centre = xyz(nodes.v[c]);
+  const Mat3 R = q.toRotationMatrix();
+  const Mat3 R_next = turn.q.toRotationMatrix();
+  for (std::size_t k = 0; k < body.members.size(); ++k) {
+    const auto i = static_cast<std::size_t>(body.members[k]);
+    const Vec3 v = v_centre + (R_next * body.arms[k] - R * body.arms[k]) / step.dt;
+    const Vec3 a = (v - xyz(nodes.v[i])) / body.dt_kick;
+    nodes.v[i] = {v.x(), v.y(), v.z(), 1};
+    set_xyz(nodes.f[i], a);
+    if (nodes.rotating.contains(body.members[k])) set_xyz(nodes.omega[i], turn.omega);
+  }
+}
+
+void release_members(const RigidBody& body, Nodes& nodes) {
+  for (const Index member : body.members) nodes.v[static_cast<std::size_t>(member)].w = 0;
+}
+
+void place_members(RigidBody& body, Nodes& nodes) {
+  body.q = body.q_next.coeffs();
+  const Mat3 R = body.q_next.toRotationMatrix();
+  const Vec3 centre = xyz(nodes.x[static_cast<std::size_t>(body.node)]);
+  for (std::size_t k = 0; k < body.members.size(); ++k) {
+    set_xyz(nodes.x[static_cast<std::size_t>(body.members[k])], centre + R * body.arms[k]);
+  }
+}
+
+/// Makes members follow: no mass of their own, the velocity of the body.
+void enlist_members(RigidBody& body, Nodes& nodes, const Vec3& omega) {
+  const auto c = static_cast<std::size_t>(body.node);
+  const Quaternion q = quaternion_of(body.q);
+  for (const Index member : body.members) {
+    const auto i = static_cast<std::size_t>(member);
+    const Vec3 r = xyz(nodes.x[i]) - xyz(nodes.x[c]);
+    body.arms.emplace_back(q.conjugate() * r);
+    const Vec3 v = xyz(nodes.v[c]) + omega.cross(r);
+    nodes.x[i].w = 0;
+    nodes.v[i] = {v.x(), v.y(), v.z(), 0};
+    if (!nodes.rotating.contains(member)) continue;
+    nodes.omega[i] = {omega.x(), omega.y(), omega.z(), 0};
+    nodes.torque[i].w = 0;
+  }
+}
+
+void track(Scene& scene, const std::string& body, const std::string& name, const std::string& unit,
+           double* values, int components) {
+  Field f;
+  f.name = body + "." + name;
+  f.unit = unit;
+  f.over = Over::scene;
+  f.components = components;
+  const auto size = static_cast<std::ptrdiff_t>(sizeof(double));
+  f.layout = {components * size, components * size, size, 1};
+  f.owner = "rigid body";
+  f.base = [values] { return reinterpret_cast<std::byte*>(values); };
+  f.count = [] { return Index{1}; };
+  scene.fields.push_back(std::move(f));
+}
+
+}  // namespace
+
+FreeRotation rotate_freely(const Quaternion& q, const Vec3& L, const Mat3& inverse_inertia,
+                           double dt) {
+  const Vec3 Pi = q.conjugate() * L;
+  Vec3 Pi_m = Pi;
+  Vec3 Omega = inverse_inertia * Pi_m;
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 1; round <= 30; ++round) {
+    const Vec3 residual = Pi_m - Pi - 0.5 * dt * Pi_m.cross(Omega);
+    const Mat3 slope =
+        Mat3::Identity() - 0.5 * dt * (cross_matrix(Pi_m) * inverse_inertia - cross_matrix(Omega));
+    const Vec3 change = slope.inverse() * residual;
+    const double size = change.norm();
+    Pi_m -= change;
+    Omega = inverse_inertia * Pi_m;
+    // Done at rounding: below it, or small and no longer shrinking.
+    const double scale = Pi.norm();
+    if (size <= 1e-15 * scale || (size <= 1e-13 * scale && size >= last)) {
+      const Vec3 half = 0.5 * dt * Omega;
+      return {(q * Quaternion(1, half.x(), half.y(), half.z())).normalized(), q * Omega, round,
+              true};
+    }
+    last = size;
+  }
+  return {q, Vec3::Zero(), 30, false};
+}
+
+RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input) {
+  Nodes& nodes = scene.nodes;
+  assert(nodes.rotating.contains(input.node) && input.mass > 0);
+  RigidBody& body = scene.store.get<RigidBodies>().list.emplace_back();
+  body.name = input.name;
+  body.where = input.where;
+  body.node = input.node;
+  body.members = input.members;
+  body.inertia = input.inertia;
+  body.inverse_inertia = input.inertia.inverse();
+  const Quaternion q = input.q.normalized();
+  body.q = q.coeffs();
+  body.q_next = q;
+  body.L = q * (body.inertia * (q.conjugate() * input.omega));
+  const auto c = static_cast<std::size_t>(body.node);
+  nodes.x[c].w = input.mass;
+  nodes.v[c].w = 1 / input.mass;
+  // Neither the kick nor the energy of the leapfrog knows a body's rotation.
+  nodes.omega[c] = {input.omega.x(), input.omega.y(), input.omega.z(), 0};
+  nodes.torque[c].w = 0;
+  enlist_members(body, nodes, input.omega);
+  track(scene, body.name, "q", "", body.q.data(), 4);
+  track(scene, body.name, "L", "kg m^2/s", body.L.data(), 3);
+  return body;
+}
+
+double rotation_energy(const RigidBody& body, double dt) {
+  const Vec3 L = body.L - 0.5 * dt * body.torque;
+  const Vec3 Pi = quaternion_of(body.q).conjugate() * L;
+  return 0.5 * Pi.dot(body.inverse_inertia * Pi);
+}
+
+void add_rigid_body_operations(Scene& scene, Model& model, Ledger& ledger, RigidBody& body) {
+  Nodes& nodes = scene.nodes;
+  const std::string reason = asked_for_at(body.where);
+  const auto add = [&](const char* what, Stage stage, std::function<void(const Step&)> run) {
+    return &model.plan.add(
+        {.name = body.name + ": " + what, .reason = reason, .stage = stage, .run = std::move(run)});
+  };
+  Operation* gathering =
+      add("gather forces", Stage::accelerate, [&](const Step&) { gather(body, nodes); });
+  gathering->stable_dt = [&body] {
+    const Vec3 Pi = quaternion_of(body.q).conjugate() * body.L;
+    const double omega = (body.inverse_inertia * Pi).norm();
+    return omega > 0 ? 0.2 / omega : std::numeric_limits<double>::infinity();
+  };
+  gathering->limited_by = [&body] { return body.name + ": its rotation"; };
+  add("rotate", Stage::kick, [&](const Step& step) { kick(body, nodes, step); });
+  LedgerEntry& energy = ledger.entry("kinetic of rotation", body.name);
+  add("energy of rotation", Stage::look,
+      [&](const Step& step) { energy.value = rotation_energy(body, step.dt); });
+  add("release members", Stage::half_drift, [&](const Step&) { release_members(body, nodes); });
+  add("place members", Stage::drift, [&](const Step&) { place_members(body, nodes); });
+}
+
+}  // namespace gannet

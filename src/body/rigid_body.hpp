@@ -1,0 +1,97 @@
+// Rigid bodies. A body is one node of the table: its centre of mass, which the leapfrog moves as
+// any other node. Its members are nodes without mass that follow; what acts on them is gathered to
+// the centre in the stage accelerate, when the whole force is known. Rotation is the body's own:
+//
+//   kick    L(n+1/2) = L(n-1/2) + torque (dt_old + dt)/2              spatial angular momentum
+//           q(n) -> q(n+1): free rotation with L held fixed, by the implicit midpoint rule
+//           members: v = (x(n+1) - x(n))/dt, the chord that half drift and drift walk along
+//   look    kinetic energy of rotation at level n
+//   drift   members exactly from q(n+1), so that a body never deforms
+//
+// Free rotation. In the frame of the body, Pi = R(q)^T L and Pi' = Pi x (I^-1 Pi). The midpoint
+// rule reads
+//   Pi(n+1) - Pi(n) = dt Pi_m x Omega,   Pi_m = (Pi(n) + Pi(n+1))/2,   Omega = I^-1 Pi_m.
+// The increment is normal to Pi_m and to I^-1 Pi_m, and (a - b).(a + b) = |a|^2 - |b|^2: so |Pi|^2
+// and Pi . I^-1 Pi, the kinetic energy, are both kept exactly. The same equation, written
+//   (1 + dt/2 [Omega]) Pi(n+1) = (1 - dt/2 [Omega]) Pi(n),
+// says Pi(n+1) = C^T Pi(n) with the Cayley rotation C of dt Omega, whose quaternion is
+// (1, dt Omega/2) normalised. With q(n+1) = q(n) (1, dt Omega/2)/|.| therefore
+// R(n+1) Pi(n+1) = R(n) Pi(n) = L: the spatial angular momentum does not change at all.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// What a rigid body is made from. Positions and velocities are those of the nodes now.
+struct RigidBodyInput {
+  std::string name;
+  Location where;
+  Index node = -1;              ///< becomes the centre of mass; a node with rotations
+  std::vector<Index> members;   ///< nodes that move with it, without `node` itself
+  double mass = 0;              ///< [kg]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre, in the frame of the body now [kg m^2]
+  Quaternion q = Quaternion::Identity();  ///< from the frame of the body to space
+  Vec3 omega = Vec3::Zero();              ///< angular velocity in space [rad/s]
+};
+
+struct RigidBody {
+  std::string name;
+  Location where;
+  Index node = -1;
+  std::vector<Index> members;
+  std::vector<Vec3> arms;  ///< of the members from the centre, in the frame of the body [m]
+  Mat3 inertia;            ///< in the frame of the body [kg m^2]
+  Mat3 inverse_inertia;
+  // State, tracked:
+  Eigen::Vector4d q;  ///< quaternion x, y, z, w at level n (n+1 after drift)
+  Vec3 L;             ///< spatial angular momentum at n-1/2 (n+1/2 after the kick) [kg m^2/s]
+  // Within a step:
+  Vec3 torque = Vec3::Zero();                  ///< about the centre at level n [N m]
+  Quaternion q_next = Quaternion::Identity();  ///< at n+1, from the kick on
+  double dt_kick = 0;                          ///< (dt_old + dt)/2 of the last kick [s]
+};
+
+/// All bodies of a scene: scene.store.get<RigidBodies>().
+struct RigidBodies {
+  std::deque<RigidBody> list;
+};
+
+/// Result of a free rotation over dt.
+struct FreeRotation {
+  Quaternion q;  ///< at the end of the step
+  Vec3 omega;    ///< mean angular velocity in space: the step turns by the Cayley map of it
+  int iterations = 0;
+  bool settled = false;  ///< false: not solved, q and omega mean nothing
+};
+
+/// Free rotation over dt [s] with fixed spatial angular momentum L [kg m^2/s] by the implicit
+/// midpoint rule (see above), solved by Newton's method to rounding within 30 rounds.
+/// inverse_inertia: in the frame of the body [1/(kg m^2)]. Wants dt |omega| below about 1: the vote
+/// of the body sees to that. Throws nothing.
+FreeRotation rotate_freely(const Quaternion& q, const Vec3& L, const Mat3& inverse_inertia,
+                           double dt);
+
+/// Makes a body of existing nodes: gives its node mass and velocity, takes mass and inertia from
+/// the members (f does not move them any more), sets velocities and keeps the arms. Tracks q and L
+/// as fields over the scene, "NAME.q" and "NAME.L". To be called after finish_masses().
+/// Needs mass > 0 and a symmetric, positive definite inertia.
+RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input);
+
+/// Adds the operations of the body to the plan of a model, which must hold its node and members;
+/// after any link that pushes members.
+/// The work of a force on a member is seen by work_path() as on any node: from the kick to the
+/// look the member's 1/m is 1 and its f its mean acceleration, from half drift on it is 0 again.
+/// Votes dt |omega| <= 0.2.
+void add_rigid_body_operations(Scene& scene, Model& model, Ledger& ledger, RigidBody& body);
+
+/// Kinetic energy of rotation at level n, after the kick [J]: with L(n) = L(n+1/2) - torque dt/2,
+/// 1/2 Pi . I^-1 Pi, Pi = R(q)^T L(n).
+double rotation_energy(const RigidBody& body, double dt);
+
+}  // namespace gannet

@@ -1,0 +1,14 @@
+// The effects of this room, for the table of effects.
+#pragma once
+
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+/// Particles against the rigid planes of the scene: always there where both are.
+Effect plane_contact_effect();
+
+/// contacts.NAME: {between, type: node_to_segment, friction, thickness, stiffness, damping}.
+Effect contacts_effect();
+
+}  // namespace gannet

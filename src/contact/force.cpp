@@ -1,0 +1,157 @@
+#include "contact/force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/parallel.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr Index row_chunk = 512;
+
+/// Sum of N_i a_i over the corners of a gap's segment, a: one vector a surface node.
+template <class F>
+Vec3 at_foot(const Surface& surface, const Gap& gap, F&& of_node) {
+  const Segment& g = surface.segments[static_cast<std::size_t>(gap.segment)];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(g.n_corners); ++k) {
+    sum += gap.N[k] * of_node(static_cast<std::size_t>(g.corner[k]));
+  }
+  return sum;
+}
+
+std::size_t node_of_row(const ContactInput& in, std::size_t row) {
+  return static_cast<std::size_t>(in.points.begin + in.candidates->point[row]);
+}
+
+Vec3 relative_velocity(const ContactInput& in, std::size_t row) {
+  const Surface& surface = *in.surface;
+  const Vec3 foot = at_foot(surface, in.gaps[row], [&](std::size_t i) {
+    return xyz(in.nodes->v[static_cast<std::size_t>(surface.node[i])]);
+  });
+  return xyz(in.nodes->v[node_of_row(in, row)]) - foot;
+}
+
+}  // namespace
+
+Vec3 penalty_force(double k, const Gap& gap) { return gap.normal * (k * gap.penetration); }
+
+Vec3 damping_force(double zeta, double k, double m, double v_n, const Gap& gap) {
+  const double spring = k * gap.penetration;
+  const double c = 2 * zeta * std::sqrt(k * m);
+  return gap.normal * std::clamp(-c * v_n, -spring, spring);
+}
+
+Vec3 friction_force(const Vec3& t, const Vec3& slip, double k, double limit, const Gap& gap) {
+  Vec3 trial = t - k * slip;
+  trial -= gap.normal * gap.normal.dot(trial);
+  const double size = trial.norm();
+  return size > limit ? Vec3(trial * (limit / size)) : trial;
+}
+
+void contact_forces(const ContactInput& in, const ContactLaw& law, std::span<Line> t,
+                    ContactForces& forces) {
+  parallel_for(in.candidates->n_rows(), row_chunk, [&](Index begin, Index end) {
+    for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
+      const Gap& gap = in.gaps[r];
+      const bool active = gap.segment >= 0 && gap.penetration > 0;
+      const double m = in.nodes->x[node_of_row(in, r)].w;
+      const double k = law.stiffness(m);
+      forces.normal[r] = active ? penalty_force(k, gap) : Vec3(Vec3::Zero());
+      Vec3 total = forces.normal[r];
+      if (law.damping > 0) {
+        forces.damping[r].setZero();
+        if (active) {
+          const double v_n = gap.normal.dot(relative_velocity(in, r));
+          forces.damping[r] = damping_force(law.damping, k, m, v_n, gap);
+        }
+        total += forces.damping[r];
+      }
+      if (law.friction > 0) {
+        Line& memory = t[static_cast<std::size_t>(in.candidates->point[r])];
+        forces.friction[r].setZero();
+        if (active) {
+          const Vec3 slip = relative_velocity(in, r) * in.dt_old;
+          const double limit = law.friction * gap.normal.dot(total);
+          forces.friction[r] = friction_force(xyz(memory), slip, k, limit, gap);
+        }
+        set_xyz(memory, forces.friction[r]);
+        total += forces.friction[r];
+      }
+      forces.total[r] = total;
+    }
+  });
+}
+
+Scattered scatter_forces(const ContactInput& in, const ContactLaw& law, const ContactForces& forces,
+                         Nodes& nodes, std::span<double> stiffness) {
+  Scattered result;
+  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  const auto n_rows = static_cast<std::size_t>(in.candidates->n_rows());
+  for (std::size_t r = 0; r < n_rows; ++r) {
+    const Gap& gap = in.gaps[r];
+    if (gap.segment < 0) continue;
+    const std::size_t p = node_of_row(in, r);
+    const double k = law.stiffness(nodes.x[p].w);
+    const Segment& g = in.surface->segments[static_cast<std::size_t>(gap.segment)];
+    const auto n_corners = static_cast<std::size_t>(g.n_corners);
+    for (std::size_t c = 0; c < n_corners; ++c) {
+      stiffness[static_cast<std::size_t>(g.corner[c])] += k * gap.N[c];
+    }
+    if (!(gap.penetration > 0)) continue;
+    const Vec3& f = forces.total[r];
+    add_xyz(nodes.f[p], f);
+    for (std::size_t c = 0; c < n_corners; ++c) {
+      const auto node = in.surface->node[static_cast<std::size_t>(g.corner[c])];
+      add_xyz(nodes.f[static_cast<std::size_t>(node)], -gap.N[c] * f);
+    }
+    result.on_surface -= f;
+    ++result.active;
+  }
+  return result;
+}
+
+ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
+                         std::span<const double> stiffness) {
+  ContactRate rate;
+  const auto consider = [&](double sum, std::size_t node) {
+    const double omega2 = 2 * sum * in.nodes->v[node].w;
+    if (omega2 > rate.omega2) rate = {omega2, static_cast<Index>(node)};
+  };
+  const auto n_rows = static_cast<std::size_t>(in.candidates->n_rows());
+  for (std::size_t r = 0; r < n_rows; ++r) {
+    if (in.gaps[r].segment < 0) continue;
+    const std::size_t p = node_of_row(in, r);
+    consider(law.stiffness(in.nodes->x[p].w), p);
+  }
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    consider(stiffness[i], static_cast<std::size_t>(in.surface->node[i]));
+  }
+  return rate;
+}
+
+double contact_step(double omega2, double zeta) {
+  if (!(omega2 > 0)) return std::numeric_limits<double>::infinity();
+  return 0.4 * 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta);
+}
+
+double contact_work(const ContactInput& in, std::span<const Vec3> force,
+                    std::span<const Vec3> point_path_of_row, std::span<const Vec3> node_path) {
+  const auto rows = [&](Index begin, Index end) {
+    double work = 0;
+    for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
+      const Gap& gap = in.gaps[r];
+      if (gap.segment < 0 || !(gap.penetration > 0)) continue;
+      const Vec3 foot =
+          at_foot(*in.surface, gap, [&](std::size_t i) -> const Vec3& { return node_path[i]; });
+      work += force[r].dot(point_path_of_row[r] - foot);
+    }
+    return work;
+  };
+  return parallel_sum(in.candidates->n_rows(), row_chunk, rows);
+}
+
+}  // namespace gannet

@@ -1,0 +1,237 @@
+#include "contact/node_to_segment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/parallel.hpp"
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+namespace {
+
+std::span<const Line> particle_lines(const Scene& scene, const Array<Line>& lines) {
+  const auto begin = static_cast<std::size_t>(scene.particles.begin);
+  return {lines.data() + begin, static_cast<std::size_t>(scene.particles.size())};
+}
+
+std::span<const Line> owned(const Scene& scene, const Array<Line>& lines) {
+  return {lines.data(), static_cast<std::size_t>(scene.particles.size())};
+}
+
+ContactInput input_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
+  return {&scene.nodes, scene.particles, &c.surface, &c.candidates, c.gaps, step.dt_old};
+}
+
+/// Arrays over rows; they grow only when a list is made.
+void size_rows(NodeToSegment& c) {
+  const auto n = static_cast<std::size_t>(c.candidates.n_rows());
+  c.gaps.resize(n);
+  c.point_path.resize(n);
+  c.forces.normal.resize(n);
+  c.forces.total.resize(n);
+  if (c.law.friction > 0) c.forces.friction.resize(n);
+  if (c.law.damping > 0) c.forces.damping.resize(n);
+}
+
+/// The list from the positions in x_search and node_x_search.
+void make_list(const Scene& scene, NodeToSegment& c) {
+  const SegmentSearch what{owned(scene, c.x_search), scene.particle_part, c.particle_part,
+                           c.node_x_search,          c.surface.corners,   0};
+  SegmentSearch with_reach = what;
+  with_reach.group = {scene.particle_part.data(), what.points.size()};
+  with_reach.reach = c.range.near + c.search_numbers[0];
+  find_candidates(with_reach, c.candidates);
+  size_rows(c);
+}
+
+/// The skin of a new list: a third of the contact distance, more where that would be crossed
+/// within eight steps.
+double skin_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
+  const auto first = static_cast<std::size_t>(c.surface.node.empty() ? 0 : c.surface.node[0]);
+  const Vec3 v_surface = xyz(scene.nodes.v[first]);
+  const auto v = particle_lines(scene, scene.nodes.v);
+  const double v2 = parallel_reduce(
+      scene.particles.size(), node_chunk, 0.0,
+      [&](Index begin, Index end) {
+        double most = 0;
+        for (Index i = begin; i < end; ++i) {
+          most = std::max(most, (xyz(v[static_cast<std::size_t>(i)]) - v_surface).squaredNorm());
+        }
+        return most;
+      },
+      [](double a, double b) { return std::max(a, b); });
+  const double d = c.range.contact;
+  return std::clamp(8 * step.dt_old * std::sqrt(v2), 0.35 * d, 3 * d);
+}
+
+/// What particles remember when they are not near any segment: nothing.
+void forget_far(const Scene& scene, NodeToSegment& c) {
+  std::size_t row = 0;
+  const auto n_rows = static_cast<std::size_t>(c.candidates.n_rows());
+  for (Index i = 0; i < scene.particles.size(); ++i) {
+    if (row < n_rows && c.candidates.point[row] == i) {
+      ++row;
+      continue;
+    }
+    const auto p = static_cast<std::size_t>(i);
+    c.side[p] = 0;
+    c.offset[p] = 0;
+    if (!c.tangential.empty()) c.tangential[p] = {};
+  }
+}
+
+void track_fields(Scene& scene, NodeToSegment& c, bool friction) {
+  const auto n = static_cast<std::size_t>(scene.particles.size());
+  const std::string prefix = "contact." + c.name + ".";
+  const auto track = [&](Field f) {
+    f.owner = "contact " + c.name;
+    scene.fields.push_back(std::move(f));
+  };
+  c.x_search.resize(n);
+  c.side.assign(n, 0);
+  c.offset.assign(n, 0);
+  c.node_x_search.resize(c.surface.node.size());
+  c.search_numbers = {-1, 0, 0};
+  const auto none = GhostRule::none;
+  track(line_field(prefix + "x_search", "m", "", Over::particles, c.x_search, 0, 3, none));
+  track(plain_field(prefix + "side", "1", "", Over::particles, c.side, 1, none));
+  track(plain_field(prefix + "offset", "m", "", Over::particles, c.offset, 1, none));
+  if (friction) {
+    c.tangential.resize(n);
+    track(line_field(prefix + "tangential", "N", "", Over::particles, c.tangential, 0, 3, none));
+  }
+  track(line_field(prefix + "node_x_search", "m", "", Over::scene, c.node_x_search, 0, 3, none));
+  track(plain_field(prefix + "search_numbers", "", "", Over::scene, c.search_numbers, 1, none));
+}
+
+void add_measures(Scene& scene, NodeToSegment& c) {
+  const std::string prefix = "contact." + c.name + ".";
+  scene.measures.push_back({prefix + "force", "N", {"x", "y", "z"}, [&c](double* out) {
+                              for (int k = 0; k < 3; ++k) out[k] = c.scattered.on_surface[k];
+                            }});
+  scene.measures.push_back({prefix + "active", "1", {"value"}, [&c](double* out) {
+                              *out = static_cast<double>(c.scattered.active);
+                            }});
+  scene.measures.push_back(
+      {prefix + "overlaps", "1", {"value"}, [&c](double* out) { *out = c.search_numbers[1]; }});
+  scene.measures.push_back({prefix + "overlap_depth", "m", {"value"}, [&c](double* out) {
+                              *out = c.search_numbers[2];
+                            }});
+}
+
+void find_paths(const Scene& scene, NodeToSegment& c, const Step& step) {
+  for (std::size_t i = 0; i < c.surface.node.size(); ++i) {
+    c.node_path[i] = work_path(scene.nodes, c.surface.node[i], step);
+  }
+  for (std::size_t r = 0; r < c.gaps.size(); ++r) {
+    if (c.gaps[r].segment < 0 || !(c.gaps[r].penetration > 0)) continue;
+    c.point_path[r] = work_path(scene.nodes, scene.particles.begin + c.candidates.point[r], step);
+  }
+}
+
+/// The operation that adds up the works, and its ledger entries.
+void add_work(Scene& scene, NodeToSegment& c, Model& model, Ledger& ledger) {
+  LedgerEntry* normal = &ledger.entry("contact", c.name);
+  LedgerEntry* friction = c.law.friction > 0 ? &ledger.entry("friction", c.name) : nullptr;
+  LedgerEntry* damping = c.law.damping > 0 ? &ledger.entry("contact_damping", c.name) : nullptr;
+  Operation op;
+  op.name = "contact " + c.name + ": work";
+  op.reason = asked_for_at(c.where);
+  op.stage = Stage::look;
+  op.reads = {"v", "f"};
+  op.run = [&scene, &c, normal, friction, damping](const Step& step) {
+    find_paths(scene, c, step);
+    const ContactInput in = input_of(scene, c, step);
+    const auto work = [&](const std::vector<Vec3>& force) {
+      return contact_work(in, force, c.point_path, c.node_path);
+    };
+    normal->add_work(-work(c.forces.normal), step);
+    if (friction != nullptr) friction->add_work(-work(c.forces.friction), step);
+    if (damping != nullptr) damping->add_work(-work(c.forces.damping), step);
+  };
+  model.plan.add(std::move(op));
+}
+
+std::string who_limits(const Scene& scene, const NodeToSegment& c) {
+  if (c.rate.node < 0) return "contact " + c.name;
+  const auto node = static_cast<std::size_t>(c.rate.node);
+  return fmt::format("contact {}: {} {}", c.name,
+                     scene.particles.contains(c.rate.node) ? "particle" : "node",
+                     scene.nodes.id[node]);
+}
+
+}  // namespace
+
+NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int particle_part,
+                                    int surface_part, bool friction) {
+  NodeToSegment& c = scene.store.get<NodeToSegments>().list.emplace_back();
+  c.name = name;
+  c.particle_part = particle_part;
+  c.surface_part = surface_part;
+  c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
+  c.node_stiffness.resize(c.surface.node.size());
+  c.node_path.resize(c.surface.node.size());
+  track_fields(scene, c, friction);
+  add_measures(scene, c);
+  scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
+  scene.after_restart.push_back([&scene, &c] {
+    if (c.search_numbers[0] >= 0) make_list(scene, c);
+  });
+  return c;
+}
+
+bool search(Scene& scene, NodeToSegment& c, const Step& step) {
+  update_surface(scene.nodes, c.surface);
+  const bool first = c.search_numbers[0] < 0;
+  const auto x = particle_lines(scene, scene.nodes.x);
+  if (!first) {
+    order_rows(c.candidates);
+    const double moved =
+        relative_displacement(x, owned(scene, c.x_search), c.surface.x, c.node_x_search);
+    if (moved <= c.search_numbers[0]) return false;
+  }
+  std::copy(x.begin(), x.end(), c.x_search.begin());
+  std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
+  c.search_numbers[0] = skin_of(scene, c, step);
+  make_list(scene, c);
+  forget_far(scene, c);
+  return first;
+}
+
+void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first) {
+  const GapMemory memory{c.side, c.offset};
+  const Overlaps overlaps = find_gaps(c.surface, c.candidates, particle_lines(scene, scene.nodes.x),
+                                      c.range, first, memory, c.gaps);
+  if (first) {
+    c.search_numbers[1] = overlaps.count;
+    c.search_numbers[2] = overlaps.largest;
+  }
+  const ContactInput in = input_of(scene, c, step);
+  contact_forces(in, c.law, c.tangential, c.forces);
+  c.scattered = scatter_forces(in, c.law, c.forces, scene.nodes, c.node_stiffness);
+  c.rate = largest_rate(in, c.law, c.node_stiffness);
+}
+
+void add_node_to_segment(Scene& scene, NodeToSegment& c, Model& model, Ledger& ledger) {
+  Operation op;
+  op.name = "contact " + c.name;
+  op.reason = asked_for_at(c.where);
+  op.stage = Stage::force;
+  op.reads = {"x", "v"};
+  op.writes = {"f"};
+  op.owns = {"contact." + c.name + ".side", "contact." + c.name + ".offset"};
+  op.run = [&scene, &c](const Step& step) {
+    const bool first = search(scene, c, step);
+    apply_contact(scene, c, step, first);
+  };
+  op.stable_dt = [&c] { return contact_step(c.rate.omega2, c.law.damping); };
+  op.limited_by = [&scene, &c] { return who_limits(scene, c); };
+  model.plan.add(std::move(op));
+  add_work(scene, c, model, ledger);
+}
+
+}  // namespace gannet

@@ -1,0 +1,227 @@
+#include "contact/planes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/parallel.hpp"
+#include "contact/effects.hpp"
+#include "contact/force.hpp"
+#include "scene/particle_material.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr Index particle_chunk = 2048;
+
+double height(const Plane& plane, const Line& x) { return plane.normal.dot(xyz(x) - plane.point); }
+
+/// Force of a plane on a particle; zero where it does not touch.
+Vec3 force_on_particle(const Plane& plane, const PlaneLaw& law, const Line& x) {
+  const double p = law.distance - height(plane, x);
+  return p > 0 ? Vec3(plane.normal * (law.rate2 * x.w * p)) : Vec3(Vec3::Zero());
+}
+
+/// Force of plane k on a node; entry: of its offset.
+Vec3 force_on_node(const NodesOnPlanes& state, std::size_t k, std::size_t entry, const Line& x) {
+  const Plane& plane = state.planes[k];
+  const double p = state.law.distance - height(plane, x) - state.offset[entry];
+  const double stiffness = state.law.rate2 * x.w + state.law.fixed;
+  return p > 0 ? Vec3(plane.normal * (stiffness * p)) : Vec3(Vec3::Zero());
+}
+
+void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
+  std::fill(sums.begin(), sums.end(), PlaneSums{});
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    PlaneSums& s = sums[k % sums.size()];
+    s.force += chunks[k].force;
+    s.work += chunks[k].work;
+  }
+}
+
+/// A particle that starts behind a wall would be shot out of it: a mistake in the case.
+void complain_of_particles_behind(const Keys& root, const Scene& scene) {
+  for (const Plane& plane : scene.planes) {
+    Index n = 0;
+    Index part = 0;
+    for (Index i = 0; i < scene.particles.size(); ++i) {
+      if (height(plane, scene.nodes.x[static_cast<std::size_t>(scene.particles.begin + i)]) >= 0) {
+        continue;
+      }
+      ++n;
+      part = scene.particle_part[static_cast<std::size_t>(i)];
+    }
+    if (n == 0) continue;
+    root.mistakes().add(plane.where,
+                        fmt::format("{} particles (of part '{}') start behind the wall '{}'; its "
+                                    "normal ({}, {}, {}) must point to where the material is",
+                                    n, scene.parts[static_cast<std::size_t>(part)].name, plane.name,
+                                    plane.normal.x(), plane.normal.y(), plane.normal.z()));
+  }
+}
+
+void add_measures(Scene& scene, const ParticlesOnPlanes& state) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    scene.measures.push_back({"plane." + scene.planes[k].name + ".force",
+                              "N",
+                              {"x", "y", "z"},
+                              [&state, k](double* out) {
+                                for (int c = 0; c < 3; ++c) out[c] = state.sums[k].force[c];
+                              }});
+  }
+}
+
+void size_state(const Scene& scene, ParticlesOnPlanes& state) {
+  const std::size_t n_planes = scene.planes.size();
+  const auto n_chunks =
+      static_cast<std::size_t>((scene.particles.size() + particle_chunk - 1) / particle_chunk);
+  state.sums.resize(n_planes);
+  state.chunks.resize(n_chunks * n_planes);
+  state.touching.resize(n_chunks * static_cast<std::size_t>(particle_chunk));
+  state.n_touching.assign(n_chunks, 0);
+}
+
+void set_laws(Scene& scene, ParticlesOnPlanes& state) {
+  const auto& materials = scene.store.get<ParticleMaterials>().of_part;
+  state.law.resize(scene.parts.size());
+  for (std::size_t p = 0; p < std::min(materials.size(), scene.parts.size()); ++p) {
+    const ParticleMaterial& m = materials[p];
+    if (!(m.spacing > 0)) continue;
+    state.law[p] = {0.5 * m.spacing, (m.c0 / m.spacing) * (m.c0 / m.spacing), 0};
+  }
+}
+
+void add_look(Scene& scene, ParticlesOnPlanes& state, Model& model, Ledger& ledger) {
+  std::vector<LedgerEntry*> entries;
+  for (const Plane& plane : scene.planes) {
+    entries.push_back(&ledger.entry("contact", "plane " + plane.name));
+  }
+  Operation look;
+  look.name = "contact: work at planes";
+  look.reason = "rule: every plane stops every particle";
+  look.stage = Stage::look;
+  look.run = [&scene, &state, entries](const Step& step) {
+    work_of_planes(scene, state, step);
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      entries[k]->add_work(-state.sums[k].work, step);
+    }
+  };
+  model.plan.add(std::move(look));
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (scene.planes.empty() || scene.particles.empty()) return;
+  complain_of_particles_behind(root, scene);
+  auto& state = scene.store.get<ParticlesOnPlanes>();
+  set_laws(scene, state);
+  size_state(scene, state);
+  add_measures(scene, state);
+  Model& model = models.of_node(scene.particles.begin);
+  Operation op;
+  op.name = "contact: particles and planes";
+  op.reason = fmt::format("rule: {} rigid planes stop every particle, the first {}",
+                          scene.planes.size(), asked_for_at(scene.planes[0].where));
+  op.stage = Stage::force;
+  op.reads = {"x"};
+  op.writes = {"f"};
+  op.run = [&scene, &state](const Step&) { particles_on_planes(scene, state); };
+  double rate2 = 0;
+  for (const PlaneLaw& law : state.law) rate2 = std::max(rate2, law.rate2);
+  op.stable_dt = [dt = plane_step(rate2)] { return dt; };
+  op.limited_by = [] { return std::string("contact of particles and planes"); };
+  model.plan.add(std::move(op));
+  add_look(scene, state, model, models.ledger);
+}
+
+}  // namespace
+
+double plane_step(double rate2) { return contact_step(rate2, 0); }
+
+void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
+  const std::size_t n_planes = scene.planes.size();
+  Nodes& nodes = scene.nodes;
+  parallel_for(scene.particles.size(), particle_chunk, [&](Index begin, Index end) {
+    const auto chunk = static_cast<std::size_t>(begin / particle_chunk);
+    PlaneSums* sums = &state.chunks[chunk * n_planes];
+    std::fill(sums, sums + n_planes, PlaneSums{});
+    auto next = static_cast<std::size_t>(begin);
+    for (Index i = begin; i < end; ++i) {
+      const auto node = static_cast<std::size_t>(scene.particles.begin + i);
+      const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(i)]);
+      const PlaneLaw& law = state.law[part];
+      bool touches = false;
+      for (std::size_t k = 0; k < n_planes; ++k) {
+        if (height(scene.planes[k], nodes.x[node]) >= law.distance) continue;
+        const Vec3 f = force_on_particle(scene.planes[k], law, nodes.x[node]);
+        add_xyz(nodes.f[node], f);
+        sums[k].force -= f;
+        touches = true;
+      }
+      if (touches) state.touching[next++] = i;
+    }
+    state.n_touching[chunk] = static_cast<Index>(next) - begin;
+  });
+  add_up(state.chunks, state.sums);
+}
+
+void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& step) {
+  const std::size_t n_planes = scene.planes.size();
+  parallel_for(static_cast<Index>(state.n_touching.size()), 1, [&](Index c, Index) {
+    const auto chunk = static_cast<std::size_t>(c);
+    PlaneSums* sums = &state.chunks[chunk * n_planes];
+    const Index begin = c * particle_chunk;
+    for (Index t = begin; t < begin + state.n_touching[chunk]; ++t) {
+      const Index i = state.touching[static_cast<std::size_t>(t)];
+      const Index node = scene.particles.begin + i;
+      const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(i)]);
+      const Vec3 path = work_path(scene.nodes, node, step);
+      const Line& x = scene.nodes.x[static_cast<std::size_t>(node)];
+      for (std::size_t k = 0; k < n_planes; ++k) {
+        sums[k].work += force_on_particle(scene.planes[k], state.law[part], x).dot(path);
+      }
+    }
+  });
+  add_up(state.chunks, state.sums);
+}
+
+void nodes_on_planes(Scene& scene, NodesOnPlanes& state) {
+  const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
+  const bool first = state.begun[0] == 0;
+  state.begun[0] = 1;
+  std::size_t entry = 0;
+  for (std::size_t k = 0; k < state.planes.size(); ++k) {
+    state.sums[k] = {};
+    for (Index i = range.begin; i < range.end; ++i, ++entry) {
+      const auto node = static_cast<std::size_t>(i);
+      const double inside =
+          std::max(0.0, state.law.distance - height(state.planes[k], scene.nodes.x[node]));
+      double& offset = state.offset[entry];
+      offset = first ? inside : std::min(offset, inside);
+      if (!(inside > offset)) continue;
+      const Vec3 f = force_on_node(state, k, entry, scene.nodes.x[node]);
+      add_xyz(scene.nodes.f[node], f);
+      state.sums[k].force -= f;
+    }
+  }
+}
+
+double work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
+  const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
+  double work = 0;
+  std::size_t entry = 0;
+  for (std::size_t k = 0; k < state.planes.size(); ++k) {
+    for (Index i = range.begin; i < range.end; ++i, ++entry) {
+      const Line& x = scene.nodes.x[static_cast<std::size_t>(i)];
+      if (height(state.planes[k], x) >= state.law.distance) continue;
+      work += force_on_node(state, k, entry, x).dot(work_path(scene.nodes, i, step));
+    }
+  }
+  return work;
+}
+
+Effect plane_contact_effect() { return {.name = "contact with planes", .operations = operations}; }
+
+}  // namespace gannet

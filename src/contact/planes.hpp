@@ -1,0 +1,79 @@
+// Penalty contact with rigid planes. A plane has one side only: whatever is nearer to it than the
+// contact distance is pushed along its normal, however far it went through. Particles that start
+// nearer than half their spacing are pushed from the first step on; ones that start behind a plane
+// are a mistake of the case.
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// What one plane does at this level.
+struct PlaneSums {
+  Vec3 force = Vec3::Zero();  ///< on the plane [N]
+  double work = 0;            ///< of the plane on what touches it, along work_path() [J]
+};
+
+/// How nodes meet planes: contact distance and stiffness of a node of mass m, k = rate2 m + fixed.
+struct PlaneLaw {
+  double distance = 0;  ///< [m]
+  double rate2 = 0;     ///< [1/s^2]
+  double fixed = 0;     ///< [N/m]
+};
+
+/// All particles against all planes.
+struct ParticlesOnPlanes {
+  std::vector<PlaneLaw> law;      ///< per part
+  std::vector<PlaneSums> sums;    ///< per plane
+  std::vector<PlaneSums> chunks;  ///< work space
+  /// Particles that touched a plane in the last force stage; chunk c of the loop writes its own
+  /// from entry c times the chunk size on.
+  std::vector<Index> touching;
+  std::vector<Index> n_touching;
+};
+
+/// The nodes of a part (not particles) against some planes.
+struct NodesOnPlanes {
+  std::string name;
+  Location where;
+  int part = -1;
+  std::vector<Plane> planes;
+  PlaneLaw law;
+  Array<double> offset;  ///< tracked: stress-free start penetration, planes after planes [m]
+  Array<double> begun;   ///< tracked: 1 after the first level
+  std::vector<PlaneSums> sums;
+};
+
+/// Contacts of parts with planes; scene.store.get<NodesOnPlanesList>().
+struct NodesOnPlanesList {
+  std::deque<NodesOnPlanes> list;
+};
+
+/// Adds f = k p n with p = d - (x - x_plane) . n > 0 to nodes.f of all particles, and sums up what
+/// each plane gets.
+void particles_on_planes(Scene& scene, ParticlesOnPlanes& state);
+
+/// Sums up the work of the same forces, sum f . work_path, while positions are still those of the
+/// force stage. Work is measured along the velocities as all works are, and not as the energy
+/// k p^2/2 of the springs: what moves particles without a velocity of their own (XSPH) changes p.
+void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& step);
+
+/// The force of particles_on_planes for the nodes of a part; a node that starts closer than d keeps
+/// the penetration that it started with as a stress-free offset, which shrinks as it moves out.
+void nodes_on_planes(Scene& scene, NodesOnPlanes& state);
+
+/// Work of the planes on the nodes of the part at this level [J].
+double work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
+
+/// Step that springs of rate k/m allow beside what else acts on the nodes: 0.4 of 2/sqrt(k/m)
+/// (see contact_step()); no limit for 0.
+double plane_step(double rate2);
+
+}  // namespace gannet

@@ -1,0 +1,166 @@
+// Pressure and nodal forces.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "body/effects.hpp"
+#include "body/pressure.hpp"
+#include "small_world.hpp"
+
+using namespace gannet;
+using gannet::test::make_world;
+using gannet::test::World;
+
+namespace {
+
+std::unique_ptr<World> plate_world(const std::string& load, int nx = 2, int ny = 2) {
+  Draft draft;
+  draft.parts = {test::plate("panel", nx, ny, 1, 1), test::particles("pool", {{0, 0, 5}})};
+  return make_world("parts: {panel: {made: yes}, pool: {made: yes}}\nloads: {load: " + load + "}\n",
+                    draft, {pressure_effect(), nodal_force_effect()});
+}
+
+Vec3 total_force(const Scene& scene) {
+  Vec3 sum = Vec3::Zero();
+  for (const Line& f : scene.nodes.f) sum += xyz(f);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("pressure: corner forces of a trapezium, by hand", "[body]") {
+  // b = (0.75, 0), c = (-0.25, 0.5), d = (-0.25, 0): b x c = 0.375, b x d = 0, d x c = -0.125.
+  const auto f = pressure_on_quad(12, {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)});
+  CHECK((f[0] - Vec3(0, 0, 5)).norm() < 1e-14);
+  CHECK((f[1] - Vec3(0, 0, 5)).norm() < 1e-14);
+  CHECK((f[2] - Vec3(0, 0, 4)).norm() < 1e-14);
+  CHECK((f[3] - Vec3(0, 0, 4)).norm() < 1e-14);
+  const auto triangle = pressure_on_triangle(12, {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 1, 0)});
+  for (const Vec3& force : triangle) CHECK((force - Vec3(0, 0, 4)).norm() < 1e-14);
+}
+
+TEST_CASE("pressure: neither force nor moment on a closed box of warped faces", "[body]") {
+  // Exact for bilinear faces: a uniform pressure on a closed surface does nothing.
+  std::vector<Vec3> x;
+  for (int k = 0; k < 8; ++k) {
+    x.emplace_back((k & 1) + 0.1 * std::sin(5.0 * k), (k >> 1 & 1) + 0.1 * std::cos(7.0 * k),
+                   (k >> 2 & 1) + 0.1 * std::sin(11.0 * k));
+  }
+  const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+  for (const auto& face : faces) {
+    const std::array<Vec3, 4> corners{x[face[0]], x[face[1]], x[face[2]], x[face[3]]};
+    const auto f = pressure_on_quad(1, corners);
+    for (std::size_t a = 0; a < 4; ++a) {
+      force += f[a];
+      moment += corners[a].cross(f[a]);
+    }
+  }
+  CHECK(force.norm() < 1e-15);
+  CHECK(moment.norm() < 1e-15);
+}
+
+TEST_CASE("pressure: p A on a distorted unit plate, against the normals", "[body]") {
+  auto world = plate_world("{pressure: {on: panel, value: 1 kPa}}");
+  for (Line& x : world->scene.nodes.x) {
+    if (x.x == 0.5 && x.y == 0.5) x = {0.57, 0.41, 0, x.w};
+  }
+  world->take_steps(1);
+  CHECK((total_force(world->scene) - Vec3(0, 0, -1000)).norm() < 1e-11);
+  auto back = plate_world("{pressure: {on: panel, value: 1 kPa, side: back}}");
+  back->take_steps(1);
+  CHECK((total_force(back->scene) - Vec3(0, 0, 1000)).norm() < 1e-11);
+}
+
+TEST_CASE("pressure: follows the surface as it turns", "[body]") {
+  auto world = plate_world("{pressure: {on: panel, value: 2 Pa, side: back}}");
+  for (Line& x : world->scene.nodes.x) x = {0, x.x, x.y, x.w};  // z along x now
+  world->take_steps(1);
+  CHECK((total_force(world->scene) - Vec3(2, 0, 0)).norm() < 1e-14);
+}
+
+TEST_CASE("pressure: starts, ramps, and follows a table", "[body]") {
+  const auto force_at = [](const std::string& keys, double t) {
+    auto world = plate_world("{pressure: {on: panel, side: back, " + keys + "}}");
+    world->model().step.t = t;
+    world->take_steps(1);
+    return total_force(world->scene).z();
+  };
+  CHECK(force_at("value: 8 Pa, from: 1 s", 0.999) == 0);
+  CHECK(force_at("value: 8 Pa, from: 1 s", 1) == Approx(8).epsilon(1e-14));
+  CHECK(force_at("value: 8 Pa, ramp: 2 s", 0.5) == Approx(2).epsilon(1e-14));
+  CHECK(force_at("table: [[0 s, 1 Pa], [1 s, 5 Pa]]", 0.25) == Approx(2).epsilon(1e-14));
+}
+
+TEST_CASE("pressure: its work is what its nodes gain, at order 2", "[body]") {
+  // A plate of free nodes: it grows and bends under its pressure as it flies.
+  const auto error = [](double dt) {
+    auto world =
+        plate_world("{pressure: {on: panel, table: [[0 s, 400 Pa], [1 s, 100 Pa]]}}", 4, 4);
+    for (Line& x : world->scene.nodes.x) x.z = x.z == 0 ? 0.2 * x.x * x.y : x.z;
+    world->dt = dt;
+    world->take_steps(static_cast<int>(std::lround(0.2 / dt)) + 1);
+    Ledger& ledger = world->models.ledger;
+    const double held = ledger.entry("kinetic", "panel").value;
+    CHECK(held > 0.1);
+    return std::abs(held - ledger.entry("pressure load", "load").value) / held;
+  };
+  const double coarse = error(4e-3);
+  const double fine = error(2e-3);
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 1e-2);
+  CHECK(coarse / fine == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("pressure: the same bits for 1 and 3 threads", "[body]") {
+  const auto run = [](int n_threads) {
+    set_threads(n_threads);
+    auto world = plate_world("{pressure: {on: panel, value: 1 kPa}}", 60, 50);
+    for (Line& x : world->scene.nodes.x) x.z += 0.1 * std::sin(9 * x.x) * x.y;
+    world->take_steps(5);
+    double sum = world->models.ledger.external();
+    for (const Line& x : world->scene.nodes.x) sum = 1.1 * sum + x.z;
+    return sum;
+  };
+  const double one = run(1);
+  CHECK(run(3) == one);
+  set_threads(0);
+}
+
+TEST_CASE("nodal force: shared evenly, in time, with its work", "[body]") {
+  auto world = plate_world(
+      "{force: {nodes: {edge_of: panel}, value: [0, 0, 16 N], from: 10 ms, ramp: 20 ms}}");
+  world->take_steps(1);
+  CHECK(total_force(world->scene).norm() == 0);
+  world->model().step.t = 0.015;
+  world->take_steps(1);
+  CHECK(total_force(world->scene).z() == Approx(4).epsilon(1e-14));
+  world->model().step.t = 1;
+  world->take_steps(400);
+  const Nodes& nodes = world->scene.nodes;
+  CHECK(total_force(world->scene).z() == Approx(16).epsilon(1e-14));
+  for (std::size_t i = 0; i < nodes.f.size(); ++i) {
+    CHECK((nodes.f[i].z == 0 || nodes.f[i].z == 2));  // 8 nodes on the edge, 1 in the middle
+  }
+  Ledger& ledger = world->models.ledger;
+  const double held = ledger.entry("kinetic", "panel").value;
+  // Constant but for the jump from 0 to 4 and to 16 N, which the trapezium sees as 1 step of 400.
+  CHECK(ledger.entry("force", "load").value == Approx(held).epsilon(1e-2));
+}
+
+TEST_CASE("loads: mistakes name their place", "[body]") {
+  const auto mistakes = [](const std::string& load) {
+    return test::mistakes_of(*plate_world(load));
+  };
+  CHECK_THAT(mistakes("{pressure: {on: pool, value: 1 Pa}}"),
+             Catch::Contains("case.yaml:3:") &&
+                 Catch::Contains("loads.load.pressure.on: part 'pool' has no surface"));
+  CHECK_THAT(mistakes("{pressure: {on: panel}}"), Catch::Contains("one of value and table"));
+  CHECK_THAT(mistakes("{pressure: {on: panel, table: [[0, 1]], ramp: 1 s}}"),
+             Catch::Contains("a table has its own times"));
+  CHECK_THAT(mistakes("{force: {nodes: {part: pool}, value: [1, 0, 0]}}"),
+             Catch::Contains("loads.load.force.nodes.part"));
+}

@@ -1,0 +1,301 @@
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+
+#include "base/parallel.hpp"
+#include "contact/node_to_segment.hpp"
+#include "scenes.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A waved plate of 10 x 8 quads and 600 particles close to it on both sides, at random.
+Builder crowd() {
+  Builder b;
+  b.nx = 10;
+  b.ny = 8;
+  b.node_mass = 4;
+  b.particle_mass = 1.5;
+  b.shape = [](double x, double y) { return Vec3(x, y, 0.3 * std::sin(0.7 * x + 0.4 * y)); };
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int i = 0; i < 600; ++i) {
+    const double x = -0.3 + 10.6 * u(random);
+    const double y = -0.3 + 8.6 * u(random);
+    const double z = 0.3 * std::sin(0.7 * x + 0.4 * y) + (u(random) - 0.5);
+    b.particles.emplace_back(x, y, z);
+  }
+  return b;
+}
+
+Vec3 sum_of_forces(const Scene& s) {
+  Vec3 sum = Vec3::Zero();
+  for (const Line& f : s.nodes.f) sum += xyz(f);
+  return sum;
+}
+
+Vec3 sum_of_moments(const Scene& s) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < s.nodes.x.size(); ++i) {
+    sum += xyz(s.nodes.x[i]).cross(xyz(s.nodes.f[i]));
+  }
+  return sum;
+}
+
+double sum_of_sizes(const Scene& s) {
+  double sum = 0;
+  for (const Line& f : s.nodes.f) sum += xyz(f).norm();
+  return sum;
+}
+
+bool same_bits(const Array<Line>& a, const Array<Line>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Line)) == 0;
+}
+
+/// A particle above one quad, flying at it; k/m = 1e6, so a touch lasts about pi ms.
+Builder bouncer(double node_mass, const Vec3& x, const Vec3& v) {
+  Builder b;
+  b.node_mass = node_mass;
+  b.particles = {x};
+  b.particle_velocity = v;
+  return b;
+}
+
+double contact_energy(const Run& run) {
+  for (const LedgerEntry& e : run.models.ledger.entries()) {
+    if (e.name == "contact") return e.value;
+  }
+  return 0;
+}
+
+struct Bounce {
+  double restitution;  ///< relative normal speed after over before
+  double energy;       ///< largest imbalance over the kinetic energy, on the way
+};
+
+Bounce bounce(Builder b, double dt, double damping = 0) {
+  Scene scene;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1e6, 0, damping);
+  Run run(scene, &c, dt);
+  const double before = kinetic(scene);
+  const Vec3 p = momentum(scene);
+  const double v0 = b.particle_velocity.z();
+  const auto steps = static_cast<int>(std::lround(0.1 / dt));
+  for (int i = 0; i < steps; ++i) run.step();
+  CHECK((momentum(scene) - p).norm() < 1e-12 * b.particle_mass * std::abs(v0));
+  Vec3 plate = Vec3::Zero();
+  for (std::size_t i = 0; i < 4; ++i) plate += 0.25 * xyz(scene.nodes.v[i]);
+  const double v = xyz(scene.nodes.v[4]).z();
+  // The balance counts kinetic energy and the work of the contact's normal force alone.
+  return {-(v - plate.z()) / v0, std::abs(kinetic(scene) + contact_energy(run) - before) / before};
+}
+
+}  // namespace
+
+TEST_CASE("contact: forces of one pair by hand", "[contact]") {
+  Scene scene;
+  Builder b = bouncer(2, {0.25, 0.5, 0.06}, {0, 0, 0});
+  b.particle_mass = 0.5;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1000);
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  // p = 0.04 is there from the start: no force, reported.
+  CHECK(xyz(scene.nodes.f[4]).norm() == 0);
+  CHECK(c.search_numbers[1] == 1);
+  CHECK(c.search_numbers[2] == Approx(0.04));
+  scene.nodes.x[4].z = 0.12;  // moves out: the offset is gone
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  scene.nodes.x[4].z = 0.06;
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  // k = 1000 * 0.5, f = 500 * 0.04 = 20; N = 3/8, 1/8, 1/8, 3/8 (corners 0, 1, 3, 2 by node)
+  CHECK(scene.nodes.f[4].z == Approx(20));
+  CHECK(scene.nodes.f[0].z == Approx(-7.5));
+  CHECK(scene.nodes.f[1].z == Approx(-2.5));
+  CHECK(scene.nodes.f[2].z == Approx(-7.5));
+  CHECK(scene.nodes.f[3].z == Approx(-2.5));
+  CHECK(c.scattered.active == 1);
+  CHECK(c.scattered.on_surface.z() == Approx(-20));
+  // 2 k/m of the particle 2000, of nodes at most 2 * 500 * 3/8 / 2 = 187.5
+  CHECK(c.rate.node == 4);
+  CHECK(c.rate.omega2 == Approx(2000));
+  CHECK(contact_step(c.rate.omega2, 0) == Approx(0.8 / std::sqrt(2000.0)));
+}
+
+TEST_CASE("contact: the limit of stiffness holds", "[contact]") {
+  const ContactLaw law{1000, 300, 0, 0};
+  CHECK(law.stiffness(0.2) == 200);
+  CHECK(law.stiffness(0.5) == 300);
+}
+
+TEST_CASE("contact: forces and moments sum to zero", "[contact]") {
+  for (const double damping : {0.0, 0.2}) {
+    Scene scene;
+    const Builder b = crowd();
+    b.fill(scene);
+    NodeToSegment& c = add_contact(scene, 0.3, 1e4, 0, damping);
+    (void)search(scene, c, {});
+    for (std::size_t i = 0; i < scene.nodes.v.size(); ++i) {
+      scene.nodes.v[i].z = std::sin(static_cast<double>(i));
+    }
+    apply_contact(scene, c, {}, false);
+    CHECK(c.scattered.active > 200);
+    const double scale = sum_of_sizes(scene);
+    CHECK(sum_of_forces(scene).norm() < 1e-14 * scale);
+    CHECK(sum_of_moments(scene).norm() < 1e-13 * scale * 10);  // lever arms are up to 10
+    CHECK((c.scattered.on_surface).norm() > 0);
+  }
+}
+
+TEST_CASE("contact: same bits for any number of threads", "[contact]") {
+  Array<Line> first;
+  for (const int n : {1, 2, 3, 5}) {
+    set_threads(n);
+    Scene scene;
+    crowd().fill(scene);
+    NodeToSegment& c = add_contact(scene, 0.3, 1e4, 0.3, 0.1);
+    Run run(scene, &c, 1e-3);
+    for (int i = 0; i < 50; ++i) run.step();
+    if (n == 1) first = scene.nodes.x;
+    CHECK(same_bits(first, scene.nodes.x));
+  }
+  set_threads(0);
+}
+
+TEST_CASE("contact: bits do not depend on when lists were made", "[contact]") {
+  // A free flight of a crowd through a plate with the usual lists, against one that looks at all
+  // pairs in every step.
+  Scene lists;
+  Scene pairs;
+  Builder b = crowd();
+  b.particle_velocity = {0.3, 0, -2};
+  b.fill(lists);
+  b.fill(pairs);
+  NodeToSegment& a = add_contact(lists, 0.3, 1e4);
+  NodeToSegment& c = add_contact(pairs, 0.3, 1e4);
+  Run with_lists(lists, &a, 1e-3);
+  Run with_pairs(pairs, &c, 1e-3);
+  int made = 0;
+  double built_at = 0;
+  for (int i = 0; i < 200; ++i) {
+    with_lists.step();
+    if (i > 0) c.search_numbers[0] = 0;  // forces a new list at the next step
+    with_pairs.step();
+    made += a.x_search[0].z != built_at ? 1 : 0;
+    built_at = a.x_search[0].z;
+    REQUIRE(same_bits(lists.nodes.x, pairs.nodes.x));
+  }
+  CHECK(made > 2);  // 2 m/s for 0.2 s crosses the skin of 0.1 m a few times
+  CHECK(made < 10);
+}
+
+TEST_CASE("contact: a restart makes the same list, a sort only renames particles", "[contact]") {
+  Scene scene;
+  crowd().fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.3, 1e4);
+  Run run(scene, &c, 1e-3);
+  for (int i = 0; i < 20; ++i) run.step();
+  const SegmentCandidates before = c.candidates;
+  c.candidates = {};
+  for (const auto& rebuild : scene.after_restart) rebuild();
+  CHECK(c.candidates.point == before.point);
+  CHECK(c.candidates.segment == before.segment);
+  CHECK(c.gaps.size() == before.point.size());
+  const std::vector<std::string> tracked{"contact.c.x_search", "contact.c.side", "contact.c.offset",
+                                         "contact.c.node_x_search", "contact.c.search_numbers"};
+  for (const std::string& name : tracked) CHECK(scene.field(name) != nullptr);
+  CHECK(scene.field("contact.c.tangential") == nullptr);  // no friction, no field
+  CHECK(scene.index_lists.size() == 1);
+}
+
+TEST_CASE("contact: particles far away make no pairs and no vote", "[contact]") {
+  Scene scene;
+  bouncer(1, {0.5, 0.5, 5}, {0, 0, 0}).fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1e6);
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  CHECK(c.candidates.n_rows() == 0);
+  CHECK(c.scattered.active == 0);
+  CHECK(contact_step(c.rate.omega2, 0) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("contact: elastic bounce on a free plate, restitution 1 and energy of order 2",
+          "[contact][convergence]") {
+  // Central, so that the plate does not turn; then the exit speed follows from both balances.
+  const Builder b = bouncer(1, {0.5, 0.5, 0.15}, {0, 0, -10});
+  const Bounce coarse = bounce(b, 1e-4);
+  const Bounce fine = bounce(b, 5e-5);
+  const Bounce finest = bounce(b, 1e-5);
+  CHECK(std::abs(coarse.restitution - 1) < 2e-2);
+  CHECK(std::abs(fine.restitution - 1) < 5e-3);
+  CHECK(std::abs(finest.restitution - 1) < 1e-3);
+  // Work along work_path() is what changes the kinetic energy, to rounding.
+  for (const Bounce& r : {coarse, fine, finest}) CHECK(r.energy < 1e-12);
+}
+
+TEST_CASE("contact: bounce off either side, an edge, a corner, all at restitution 1", "[contact]") {
+  for (const double side : {1.0, -1.0}) {
+    for (const Vec3& at : {Vec3(1, 1, 0), Vec3(1, 0.5, 0), Vec3(0.5, 0.5, 0), Vec3(0.3, 0.3, 0)}) {
+      Builder b = bouncer(1e9, at + Vec3(0, 0, side * 0.15), {0, 0, -10 * side});
+      b.nx = b.ny = 2;
+      Scene scene;
+      b.fill(scene);
+      NodeToSegment& c = add_contact(scene, 0.1, 1e6);
+      Run run(scene, &c, 1e-5);
+      for (int i = 0; i < 3000; ++i) run.step();
+      CHECK(scene.nodes.v[9].z / (10 * side) == Approx(1).margin(1e-3));
+      CHECK(std::abs(scene.nodes.v[9].x) + std::abs(scene.nodes.v[9].y) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("contact: a particle that crosses the mid-surface comes back", "[contact]") {
+  // v/omega = 0.15 m is more than d = 0.1 m, so it passes the mid-surface by 0.05.
+  Builder b = bouncer(1e9, {0.4, 0.6, 0.11}, {0, 0, -150});
+  Scene scene;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1e6);
+  Run run(scene, &c, 1e-5);
+  double lowest = 1;
+  for (int i = 0; i < 1000; ++i) {
+    run.step();
+    lowest = std::min(lowest, scene.nodes.x[4].z);
+  }
+  CHECK(lowest == Approx(-0.05).margin(1e-3));
+  CHECK(scene.nodes.v[4].z == Approx(150).epsilon(1e-3));
+}
+
+TEST_CASE("contact: friction and damping only take energy, and it is all in the ledger",
+          "[contact]") {
+  Builder b = bouncer(1, {0.45, 0.5, 0.15}, {3, 0, -10});
+  Scene scene;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1e6, 0.2, 0.1);
+  Run run(scene, &c, 1e-5);
+  const double before = kinetic(scene);
+  for (int i = 0; i < 3000; ++i) run.step();
+  double held = 0;
+  for (const LedgerEntry& e : run.models.ledger.entries()) {
+    if (e.name == "friction" || e.name == "contact_damping") CHECK(e.value > 1e-3 * before);
+    if (e.name != "kinetic") held += e.value;
+  }
+  CHECK(kinetic(scene) < before);
+  CHECK(std::abs(kinetic(scene) + held - before) < 1e-11 * before);
+}
+
+TEST_CASE("contact: sliding friction is mu f_n", "[contact]") {
+  // Steady: a weight pressed on a heavy plate slows down at mu g.
+  Builder b = bouncer(1e12, {0.2, 0.5, 0.1}, {0.5, 0, 0});
+  Scene scene;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1e6, 0.3);
+  Run run(scene, &c, 1e-4);
+  Operation weight;
+  weight.name = "weight";
+  weight.run = [&scene](const Step&) { scene.nodes.f[4].z -= 10 * scene.nodes.x[4].w; };
+  run.model().plan.add(std::move(weight));
+  for (int i = 0; i < 1000; ++i) run.step();
+  // 0.5 - 0.3 * 10 * 0.1 s; the load comes on at once, so f_n swings about its mean by as much
+  CHECK(scene.nodes.v[4].x == Approx(0.2).margin(2e-3));
+}
