@@ -1,0 +1,154 @@
+#include "output/output.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "output/history.hpp"
+#include "output/report.hpp"
+#include "output/vtk_series.hpp"
+#include "time/guards.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr double default_frames = 50;
+constexpr double default_lines = 1000;
+
+Schema output_schema() {
+  Key output{.name = "output",
+             .kind = Kind::map,
+             .text = "how long the run is and what it writes when",
+             .required = true};
+  output.keys = {
+      {.name = "until",
+       .unit = dim::time,
+       .text = "end of the run",
+       .required = true,
+       .limits = positive()},
+      {.name = "vtk",
+       .kind = Kind::text,
+       .text = "VTK frames: 'every 0.25 ms' or 'never'; absent: 50 frames over the run"},
+      {.name = "history",
+       .kind = Kind::text,
+       .text = "lines of the histories: 'every 10 us' or 'never'; absent: 1000 over the run"},
+      {.name = "checkpoint",
+       .kind = Kind::text,
+       .text = "'every 5 min of wall time', 'every 2 ms' (of the run) or 'never'",
+       .fallback = "every 5 min of wall time"}};
+  return {{"", output}};
+}
+
+/// What `read` makes of the text of a key; its complaint where it cannot.
+template <class T>
+T parsed(const Keys& keys, const char* key, T otherwise, T (*read)(const std::string&)) {
+  if (!keys.has(key)) return otherwise;
+  try {
+    return read(keys.word(key));
+  } catch (const std::invalid_argument& error) {
+    keys.complain(key, error.what());
+    return otherwise;
+  }
+}
+
+OutputPlan read_plan(const Keys& keys) {
+  OutputPlan plan;
+  plan.until = keys.number("until");
+  plan.vtk = parsed(keys, "vtk", Every{plan.until / default_frames}, parse_every);
+  plan.history = parsed(keys, "history", Every{plan.until / default_lines}, parse_every);
+  plan.checkpoint = parsed(keys, "checkpoint", CheckpointEvery{}, parse_checkpoint_every);
+  return plan;
+}
+
+void check_names(const Keys& keys, const Scene& scene) {
+  std::set<std::string> taken{"energy"};
+  for (const Measure& m : scene.measures) {
+    const std::string name = history_name(m);
+    if (!name.empty() && !taken.insert(name).second) {
+      keys.complain("history",
+                    "two histories would be called '" + name + ".csv'; rename '" + m.name + "'");
+    }
+  }
+}
+
+/// True at the levels at which `every` is due, and at the last level of the run.
+bool acts(const Every& every, const RunRecord& record, const Step& s) {
+  if (!s.coincides || record.folder.empty() || !(every.interval > 0)) return false;
+  const OutputProgress& o = record.output;
+  const bool last = s.t >= record.plan.until && o.last_look < record.plan.until;
+  return last || due(every, o.last_look, s.t);
+}
+
+std::string reason(const Keys& keys, const char* key, const Every& every) {
+  const std::string often = "every " + time_text(every.interval);
+  return keys.given(key) ? often + ", " + asked_for_at(keys.where(key)) : often + ", by default";
+}
+
+std::vector<std::string> shown_fields(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Field& f : scene.fields) {
+    if (!f.vtk.empty()) names.push_back(f.name);
+  }
+  return names;
+}
+
+void add_histories(const Keys& keys, Scene& scene, Models& models, RunRecord& record) {
+  if (!(record.plan.history.interval > 0)) return;
+  auto history = std::make_shared<History>(scene, models.ledger);
+  const GuardState& guards = scene.store.get<GuardState>();
+  models.list.back().plan.add({.name = "histories",
+                               .reason = reason(keys, "history", record.plan.history),
+                               .stage = Stage::look,
+                               .reads = {"ledger", "measures"},
+                               .run = [history, &guards, &record](const Step& s) {
+                                 if (!acts(record.plan.history, record, s)) return;
+                                 history->write(s.t, guards.balance, record.folder);
+                               }});
+}
+
+void add_frames(const Keys& keys, Scene& scene, Models& models, RunRecord& record) {
+  if (!(record.plan.vtk.interval > 0)) return;
+  models.list.back().plan.add({.name = "VTK frames",
+                               .reason = reason(keys, "vtk", record.plan.vtk),
+                               .stage = Stage::look,
+                               .reads = shown_fields(scene),
+                               .run = [&scene, &models, &record](const Step& s) {
+                                 if (!acts(record.plan.vtk, record, s)) return;
+                                 write_frame(scene, models, record);
+                               }});
+}
+
+void output_operations(const Keys& root, Scene& scene, Models& models) {
+  RunRecord& record = scene.store.get<RunRecord>();
+  const Keys keys = root.map("output");
+  record.plan = read_plan(keys);
+  check_names(keys, scene);
+  add_histories(keys, scene, models, record);
+  add_frames(keys, scene, models, record);
+  models.list.back().plan.add(
+      {.name = "end of run",
+       .reason = "until " + time_text(record.plan.until) + ", " + asked_for_at(keys.where("until")),
+       .stage = Stage::look,
+       .run = [&record](const Step& s) {
+         if (!s.coincides) return;
+         record.output.last_look = s.t;
+         if (s.t >= record.plan.until) record.output.finished = true;
+       }});
+}
+
+}  // namespace
+
+Effect output_effect() {
+  return {.name = "output", .schema = output_schema, .operations = output_operations};
+}
+
+std::string last_output(const RunRecord& record) {
+  if (record.output.frames.empty()) return "no frame was written";
+  const Frame& last = record.output.frames.back();
+  return fmt::format("frame {} at {} in {}", last.number, time_text(last.t), pvd_path(record));
+}
+
+}  // namespace gannet

@@ -1,0 +1,86 @@
+#include "output/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "output/output.hpp"
+#include "time/guards.hpp"
+
+namespace gannet {
+
+std::string time_text(double seconds) {
+  const double size = std::abs(seconds);
+  if (size == 0 || !std::isfinite(size)) return fmt::format("{} s", seconds);
+  if (size >= 0.9999995) return fmt::format("{:.4g} s", seconds);
+  if (size >= 0.9999995e-3) return fmt::format("{:.4g} ms", seconds * 1e3);
+  if (size >= 0.9999995e-6) return fmt::format("{:.4g} us", seconds * 1e6);
+  return fmt::format("{:.4g} ns", seconds * 1e9);
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string count_text(double value) {
+  if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
+  if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
+  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
+  return fmt::format("{:.3g}", value);
+}
+
+std::vector<OperationCost> operation_costs(const Models& models, double wall) {
+  std::vector<OperationCost> costs;
+  for (const Model& m : models.list) {
+    for (int s = 0; s < n_stages; ++s) {
+      const auto stage = static_cast<Stage>(s);
+      for (const Operation& op : m.plan.at(stage)) {
+        const double share = wall > 0 ? op.watch.seconds / wall : 0;
+        costs.push_back({m.name, name_of(stage), op.name, op.watch.seconds, share, op.watch.calls});
+      }
+    }
+  }
+  return costs;
+}
+
+std::string report(Scene& scene, const Models& models, const RunRecord& record) {
+  const double wall = wall_time(record);
+  const StepsDone done = steps_done(scene, models, record);
+  const std::vector<OperationCost> costs = operation_costs(models, wall);
+  const bool several = models.list.size() > 1;
+  const auto title = [&](const OperationCost& c) {
+    return several ? c.model + ": " + c.name : c.name;
+  };
+  std::size_t width = 24;
+  for (const OperationCost& c : costs) width = std::max(width, title(c).size());
+
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}: {}\n", record.status, record.exit_reason);
+  fmt::format_to(out, "t = {}, {} steps in {}, {} threads, energy error {:.3g} %\n",
+                 time_text(models.list.front().step.t), models.list.back().step.n,
+                 duration_text(wall), record.threads,
+                 100 * scene.store.get<GuardState>().balance.error());
+  fmt::format_to(out, "{} particle steps/s, {} element steps/s\n",
+                 count_text(done.particle_steps / wall), count_text(done.element_steps / wall));
+  fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10} {:>7}\n", "stage", "operation", width, "calls",
+                 "seconds", "share");
+  double rest = wall;
+  for (const OperationCost& c : costs) {
+    fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10.3f} {:>5.1f} %\n", c.stage, title(c), width,
+                   c.calls, c.seconds, 100 * c.share);
+    rest -= c.seconds;
+  }
+  fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10.3f} {:>5.1f} %\n", "", "all else", width, "",
+                 rest, wall > 0 ? 100 * rest / wall : 0);
+  fmt::format_to(out, "{}\n", last_output(record));
+  return text;
+}
+
+}  // namespace gannet

@@ -1,0 +1,40 @@
+// What a person reads at the end of a run, and numbers as a person reads them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/run_record.hpp"
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// A time with four digits and a fitting unit: 0.0123 -> "12.3 ms".
+std::string time_text(double seconds);
+
+/// A duration of the clock on the wall: "12.3 s", "1 min 05 s", "2 h 03 min".
+std::string duration_text(double seconds);
+
+/// A rate or a count with a prefix: 1.25e6 -> "1.25 M".
+std::string count_text(double value);
+
+/// What one operation of a plan cost in this process.
+struct OperationCost {
+  std::string model;
+  std::string stage;
+  std::string name;
+  double seconds = 0;
+  double share = 0;  ///< of the wall time since begin_run()
+  std::int64_t calls = 0;
+};
+
+/// The operations of all models in the order of the plan, with what each cost.
+/// wall: wall time of the run [s].
+std::vector<OperationCost> operation_costs(const Models& models, double wall);
+
+/// The report: how the run ended, and one line an operation: stage, name, calls, seconds, share.
+/// The same list as `gannet explain` prints.
+std::string report(Scene& scene, const Models& models, const RunRecord& record);
+
+}  // namespace gannet

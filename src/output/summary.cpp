@@ -1,0 +1,86 @@
+#include "output/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.hpp"
+#include "output/files.hpp"
+#include "output/report.hpp"
+#include "time/guards.hpp"
+
+namespace gannet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Sum of m (x, y, z: m v; w: m) over the owned nodes.
+Line mass_and_momentum(const Nodes& nodes) {
+  return parallel_reduce(
+      nodes.n_owned, node_chunk, Line{},
+      [&](Index begin, Index end) {
+        Line sum;
+        for (Index i = begin; i < end; ++i) {
+          const double m = nodes.x[static_cast<std::size_t>(i)].w;
+          add_xyz(sum, m * xyz(nodes.v[static_cast<std::size_t>(i)]));
+          sum.w += m;
+        }
+        return sum;
+      },
+      [](const Line& a, const Line& b) {
+        return Line{a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+      });
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
+}
+
+Json operations_json(const Models& models, double wall) {
+  Json list = Json::array();
+  for (const OperationCost& c : operation_costs(models, wall)) {
+    list.push_back({{"name", c.name},
+                    {"stage", c.stage},
+                    {"model", c.model},
+                    {"calls", c.calls},
+                    {"seconds", c.seconds},
+                    {"share", c.share}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string summary_text(Scene& scene, const Models& models, const RunRecord& record) {
+  const double wall = wall_time(record);
+  const StepsDone done = steps_done(scene, models, record);
+  const Line sum = mass_and_momentum(scene.nodes);
+  const Json json = {{"status", record.status},
+                     {"exit_reason", record.exit_reason},
+                     {"case", record.case_file},
+                     {"version", full_version(record)},
+                     {"steps", models.list.back().step.n},
+                     {"time", models.list.front().step.t},
+                     {"wall_time", wall},
+                     {"wall_time_before", record.wall_before},
+                     {"threads", record.threads},
+                     {"instruction_set", record.instruction_set},
+                     {"energy_error", scene.store.get<GuardState>().balance.error()},
+                     {"mass", sum.w},
+                     {"momentum", {sum.x, sum.y, sum.z}},
+                     {"peak_memory_bytes", peak_memory_bytes()},
+                     {"particle_steps_per_second", wall > 0 ? done.particle_steps / wall : 0},
+                     {"element_steps_per_second", wall > 0 ? done.element_steps / wall : 0},
+                     {"operations", operations_json(models, wall)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(Scene& scene, const Models& models, const RunRecord& record) {
+  write_whole_file(record.folder + "/summary.json", summary_text(scene, models, record),
+                   Durable::yes);
+}
+
+}  // namespace gannet
