@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include "app/commands.hpp"
+#include "app/simulation.hpp"
+#include "base/parallel.hpp"
+#include "fe/shell.hpp"
+#include "search/cluster_list.hpp"
+#include "search/spatial_sort.hpp"
+#include "sph/pair_pass.hpp"
+#include "sph/sph_state.hpp"
+#include "time/step.hpp"
+
+namespace gannet {
+
+namespace {
+
+/// A cube of n^3 particles 10 mm apart that drifts and shears a little, as a run would have it.
+std::unique_ptr<Simulation> cube_of_water(int n) {
+  const std::string side = fmt::format("{} m", 0.01 * n);
+  const std::string text = fmt::format(
+      "gannet: 1\n"
+      "materials: {{water: {{card: water, c0: 30 m/s}}}}\n"
+      "parts: {{pool: {{sph: {{material: water, spacing: 10 mm}}, fill: {{box: {{from: [0, 0, 0], "
+      "to: [{0}, {0}, {0}]}}}}}}}}\n"
+      "effects: {{viscosity: {{alpha: 0.05}}}}\n"
+      "output: {{until: 1 s}}\n",
+      side);
+  auto simulation = make_simulation_of_text(text);
+  Nodes& nodes = simulation->scene.nodes;
+  for (Index i = simulation->scene.particles.begin; i < simulation->scene.particles.end; ++i) {
+    const Line& x = nodes.x[i];
+    nodes.v[i] = {std::sin(30 * x.y), std::sin(30 * x.z), std::sin(30 * x.x), nodes.v[i].w};
+  }
+  return simulation;
+}
+
+BenchResult particles_result(const Simulation& simulation, double seconds, int steps) {
+  const Index n = simulation.scene.particles.size();
+  std::size_t bytes = 0;
+  for (const Field& f : simulation.scene.fields) bytes += bytes_of(f);
+  BenchResult r;
+  r.size = n;
+  r.median_seconds = seconds / steps;
+  r.rate = n * steps / seconds;
+  r.unit = "particle-steps/s";
+  r.bytes_per_item = static_cast<double>(bytes) / n;
+  return r;
+}
+
+/// Whole steps as `gannet run` makes them: the same plan, lists made anew when they are stale.
+BenchResult bench_sph_step(int n) {
+  const auto simulation = cube_of_water(n);
+  const int steps = 20;
+  const double seconds = median_seconds(3, [&] {
+    for (int k = 0; k < steps; ++k) advance(simulation->models);
+  });
+  return particles_result(*simulation, seconds, steps);
+}
+
+enum class Pass { rates, force, fused };
+
+/// One pair pass over the lists of a cube, h/dx = 1.3.
+BenchResult bench_sph_pass(int n, Pass pass) {
+  const auto simulation = cube_of_water(n);
+  advance(simulation->models);
+  Scene& scene = simulation->scene;
+  const SphState& sph = scene.store.get<SphState>();
+  const Index first = scene.particles.begin;
+  const ParticleView view{&scene.nodes.x[first], &scene.nodes.v[first], sph.rho.data(),
+                          sph.p.data(), sph.list.n_sources};
+  Array<PackedParticle> packed;
+  pack_particles(view, packed);
+  const auto count = static_cast<std::size_t>(scene.particles.size());
+  Array<double> drho_dt(count);
+  Array<Line> f(count);
+  Array<Line> f_viscous(count);
+  const PairParameters parameters{3, sph.h, sph.m, sph.c0, 0.05, 0.1, 0};
+  const RatesOut rates{drho_dt.data(), nullptr};
+  const ForceOut force{f.data(), f_viscous.data()};
+  const double seconds = median_seconds(9, [&] {
+    if (pass == Pass::rates) pair_rates(sph.list, packed, parameters, rates);
+    if (pass == Pass::force) pair_force(sph.list, packed, parameters, force);
+    if (pass == Pass::fused) pair_fused(sph.list, packed, parameters, rates, force);
+  });
+  BenchResult r = particles_result(*simulation, seconds, 1);
+  r.bytes_per_item =
+      sizeof(PackedParticle) + sizeof(double) + 2 * sizeof(Line) +
+      sizeof(Index) * static_cast<double>(sph.list.offset.back()) / static_cast<double>(count);
+  return r;
+}
+
+/// A wavy sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving.
+BenchResult bench_shell(int n) {
+  const std::string text = fmt::format(
+      "gannet: 1\n"
+      "materials: {{skin: {{card: al_6061_t6}}}}\n"
+      "parts: {{sheet: {{shell: {{material: skin, thickness: 3 mm, points: 5}}, shape: {{plate: "
+      "{{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}\n"
+      "output: {{until: 1 s}}\n",
+      0.02 * n, n);
+  const auto simulation = make_simulation_of_text(text);
+  Scene& scene = simulation->scene;
+  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
+    const Line& x = scene.nodes.x[i];
+    scene.nodes.v[i].z = std::sin(5 * x.x) * std::cos(5 * x.y);
+  }
+  for (int k = 0; k < 3; ++k) advance(simulation->models);
+  ShellBlock& block = scene.store.get<ShellBlocks>().list.front();
+  const double dt = simulation->models.list.front().step.dt;
+  const double seconds = median_seconds(9, [&] { shell_pass(block, scene.nodes, dt); });
+  BenchResult r;
+  r.size = block.n_elements;
+  r.median_seconds = seconds;
+  r.rate = block.n_elements / seconds;
+  r.unit = "element-steps/s";
+  r.bytes_per_item =
+      8.0 * static_cast<double>(block.state.size()) / static_cast<double>(block.n_elements);
+  return r;
+}
+
+std::vector<Benchmark> all_benchmarks() {
+  return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
+          {"fe.shell.pass.400k", [] { return bench_shell(632); }},
+          {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
+          {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
+          {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
+          {"sph.step.100k", [] { return bench_sph_step(46); }},
+          {"sph.pass.fused.1M", [] { return bench_sph_pass(100, Pass::fused); }},
+          {"sph.step.1M", [] { return bench_sph_step(100); }}};
+}
+
+}  // namespace
+
+int bench_command(const BenchOptions& options) { return run_benchmarks(options, all_benchmarks()); }
+
+}  // namespace gannet

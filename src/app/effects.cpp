@@ -1,0 +1,75 @@
+#include "app/effects.hpp"
+
+#include <vector>
+
+#include "body/effects.hpp"
+#include "contact/effects.hpp"
+#include "fe/effects.hpp"
+#include "mesh/mesh_keys.hpp"
+#include "output/output.hpp"
+#include "sph/effects.hpp"
+#include "time/guards.hpp"
+#include "time/leapfrog.hpp"
+
+namespace gannet {
+
+namespace {
+
+/// Keys that belong to no effect.
+Schema case_schema() {
+  return {{"", {.name = "title", .kind = Kind::text, .text = "what the case is"}},
+          {"",
+           {.name = "dimension",
+            .kind = Kind::integer,
+            .text = "3, or 2 for the plane z = 0 of unit thickness",
+            .fallback = "3",
+            .limits = between(2, 3)}},
+          {"parts.*",
+           {.name = "initial_velocity",
+            .kind = Kind::vector,
+            .unit = dim::velocity,
+            .text = "velocity of the whole part at the start"}}};
+}
+
+std::vector<Effect> make_table() {
+  return {
+      leapfrog_effect(),           // first: clears forces, kicks and drifts
+      gravity_effect(),            // says what gravity is before others ask the scene
+      sph_effect(),                //
+      viscosity_effect(),          //
+      xsph_effect(),               //
+      shell_effect(),              //
+      planes_effect(),             //
+      plane_contact_effect(),      //
+      contacts_effect(),           //
+      pressure_effect(),           //
+      nodal_force_effect(),        //
+      periodic_effect(),           // copies out what moved, adds back what ghosts collected
+      prescribed_motion_effect(),  // after all forces: measures the reactions
+      probes_effect(),             //
+      sph_probes_effect(),         //
+      guards_effect(),             // after all energies are known
+      output_effect(),             // last: looks at everything, changes nothing
+  };
+}
+
+}  // namespace
+
+std::span<const Effect> effects() {
+  static const std::vector<Effect> table = make_table();
+  return table;
+}
+
+Schema whole_schema() {
+  Schema schema = case_schema();
+  const auto append = [&](const Schema& more) {
+    schema.insert(schema.end(), more.begin(), more.end());
+  };
+  append(mesh_schema());
+  for (const Effect& e : effects()) {
+    if (e.schema != nullptr) append(e.schema());
+  }
+  return schema;
+}
+
+}  // namespace gannet

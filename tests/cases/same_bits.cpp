@@ -1,0 +1,181 @@
+// The same bits for any number of threads, for a run that is cut and resumed, and for any output.
+// CTest runs this once per instruction set (GANNET_ISA).
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "../support/same_bits.hpp"
+#include "../support/temporary_folder.hpp"
+#include "base/parallel.hpp"
+#include "output/checkpoint.hpp"
+#include "output/folder.hpp"
+#include "same_bits_cases.hpp"
+#include "sph/sph_state.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A case, and how many steps of it are compared.
+struct Sample {
+  std::function<std::unique_ptr<WatchedRun>()> make;
+  std::int64_t n_steps = 0;
+  bool contact = false;  ///< steps are counted from the first contact on
+};
+
+Sample panel_sample() {
+  return {[] { return std::make_unique<WatchedRun>(panel_slam, small_panel); }, 220, true};
+}
+
+Sample dam_sample() {
+  return {[] { return std::make_unique<WatchedRun>(dam_break, small_dam); }, 600, false};
+}
+
+Sample periodic_sample() {
+  return {[] { return std::make_unique<WatchedRun>(periodic_plane); }, 300, false};
+}
+
+/// Runs a sample from its start; returns it at its end.
+std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
+  set_threads(n_threads);
+  auto r = sample.make();
+  if (sample.contact) r->until_above_zero("contact.slam.active");
+  r->steps(sample.n_steps);
+  return r;
+}
+
+void report(const WatchedRun& r) {
+  WARN(fmt::format("{} steps, {} entries of {} bytes, {} x {} numbers of histories, {} lists made",
+                   r.at().n, bits_of(*r.s).size(), n_bytes(bits_of(*r.s)), r.history.size(),
+                   r.history.begin()->second.size(), r.s->scene.store.get<SphState>().n_builds));
+}
+
+void check_threads(const Sample& sample) {
+  const auto one = run(sample, 1);
+  const Bits bits = bits_of(*one->s);
+  report(*one);
+  // Lists must have been made anew, or the order of particles was never at stake.
+  CHECK(one->s->scene.store.get<SphState>().n_builds >= 3);
+  for (const int n : {2, 3, 5}) {
+    INFO(n << " threads");
+    const auto other = run(sample, n);
+    CHECK(other->history.size() == one->history.size());
+    check_same(bits, bits_of(*other->s));
+    check_same_history(*one, *other);
+  }
+}
+
+/// Steps to level n, writes a checkpoint there, and reads it into a simulation made anew.
+std::unique_ptr<WatchedRun> cut_at(const Sample& sample, std::unique_ptr<WatchedRun> r,
+                                   std::int64_t n, const std::string& folder) {
+  r->steps(n - r->at().n);
+  const std::string path = fmt::format("{}/checkpoint_{:06}.h5", folder, n);
+  write_checkpoint(path, r->s->scene, r->s->models, r->s->scene.store.get<RunRecord>());
+  auto next = sample.make();
+  Simulation& s = *next->s;
+  read_checkpoint(path, s.scene, s.models, s.scene.store.get<RunRecord>());
+  CHECK(next->at().n == n);
+  return next;
+}
+
+void check_restart(const Sample& sample) {
+  const auto whole = run(sample, 2);
+  const std::int64_t end = whole->at().n;
+  const TemporaryFolder folder;
+  auto r = sample.make();
+  // Cut soon after the start, in the middle, right after the next step, and close to the end.
+  int n_threads = 1;
+  for (const std::int64_t n : {std::int64_t{3}, end / 3, end - sample.n_steps / 2,
+                               end - sample.n_steps / 2 + 1, end - 7}) {
+    INFO("cut at step " << n << " of " << end);
+    set_threads(n_threads);
+    n_threads = n_threads % 3 + 1;
+    r = cut_at(sample, std::move(r), n, folder.path());
+  }
+  r->steps(end - r->at().n);
+  CHECK(r->history.size() == 7);
+  check_same_history(*whole, *r);
+  check_same(bits_of(*whole->s), bits_of(*r->s));
+}
+
+/// Runs as `gannet run` does, with these output keys, up to step `end`; returns the bits.
+Bits run_with_output(const std::string& file, std::vector<std::string> set,
+                     const std::vector<std::string>& output, const std::string& folder,
+                     std::int64_t end) {
+  set.insert(set.end(), output.begin(), output.end());
+  const auto s = make_simulation(file, set);
+  RunRecord& record = s->scene.store.get<RunRecord>();
+  record.folder = folder;
+  record.name = "bits";
+  if (!folder.empty()) prepare_output_folder(folder, true, false);
+  begin_run(record, s->models);
+  while (!record.output.finished && s->models.list.front().step.n < end) {
+    if (checkpoint_due(s->models, record)) write_next_checkpoint(s->scene, s->models, record);
+    advance(s->models);
+  }
+  if (!folder.empty()) {
+    CHECK(record.output.frames.size() > 10);
+    CHECK(!newest_checkpoint(folder).empty());
+  }
+  return bits_of(*s);
+}
+
+void check_output(const std::string& file, const std::vector<std::string>& set,
+                  const std::string& often, const std::string& until, std::int64_t end) {
+  set_threads(2);
+  const TemporaryFolder folder;
+  const Bits silent = run_with_output(
+      file, set, {"output.vtk=never", "output.history=never", "output.until=1000 s"}, "", end);
+  const Bits talking =
+      run_with_output(file, set,
+                      {"output.vtk=every " + often, "output.history=every 1 ns",
+                       "output.checkpoint=every " + often, "output.until=" + until},
+                      folder.path() + "/out", end);
+  check_same(silent, talking);
+}
+
+}  // namespace
+
+TEST_CASE("same bits: parallel loops really use 1, 2, 3 and 5 threads", "[bits]") {
+  for (const int n : {1, 2, 3, 5}) {
+    set_threads(n);
+    CHECK(threads() == n);
+    CHECK(thread_arena().max_concurrency() == n);
+  }
+}
+
+TEST_CASE("same bits: panel on water, 1, 2, 3 and 5 threads, 220 steps past first contact",
+          "[bits]") {
+  check_threads(panel_sample());
+}
+
+TEST_CASE("same bits: dam break, 1, 2, 3 and 5 threads", "[bits]") { check_threads(dam_sample()); }
+
+TEST_CASE("same bits: periodic shear layer with viscosity and XSPH, 1, 2, 3 and 5 threads",
+          "[bits]") {
+  check_threads(periodic_sample());
+}
+
+TEST_CASE("same bits: panel on water, cut five times and resumed, as if never cut", "[bits]") {
+  check_restart(panel_sample());
+}
+
+TEST_CASE("same bits: dam break, cut five times and resumed, as if never cut", "[bits]") {
+  check_restart(dam_sample());
+}
+
+TEST_CASE("same bits: periodic shear layer, cut five times and resumed, as if never cut",
+          "[bits]") {
+  check_restart(periodic_sample());
+}
+
+TEST_CASE("same bits: output, checkpoints and the end time change nothing in a panel on water",
+          "[bits]") {
+  check_output(panel_slam, small_panel, "0.07 ms", "1.8 ms", 300);
+}
+
+TEST_CASE("same bits: output, checkpoints and the end time change nothing in a dam break",
+          "[bits]") {
+  check_output(dam_break, small_dam, "1 ms", "60 ms", 400);
+}

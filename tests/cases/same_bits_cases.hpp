@@ -1,0 +1,39 @@
+// The cases that the tests of equal bits run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gannet::test {
+
+inline const std::string panel_slam = "cases/panel_slam/case.yaml";
+
+/// The real case with coarser water and fewer elements: more than one chunk of particles still.
+inline const std::vector<std::string> small_panel{
+    "let.dx=30mm", "parts.panel.shape.plate.elements=[16, 11]", "output.checkpoint=never"};
+
+/// The dam break with finer water: 7200 particles, more than one chunk, and its walls.
+inline const std::string dam_break = "cases/dam_break_2d/case.yaml";
+inline const std::vector<std::string> small_dam{"let.dx=a/60", "output.checkpoint=never"};
+
+/// A shear layer in a periodic plane, 100 x 60 particles, with viscosity and XSPH.
+inline const std::string periodic_plane = R"(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  upper:
+    sph: {material: water, spacing: 10 mm}
+    fill: {box: {from: [0, 0.3 m, 0], to: [1 m, 0.6 m, 0]}}
+    initial_velocity: [2 m/s, 0.3 m/s, 0]
+  lower:
+    sph: {material: water, spacing: 10 mm}
+    fill: {box: {from: [0, 0, 0], to: [1 m, 0.3 m, 0]}}
+    initial_velocity: [-2 m/s, 0, 0]
+boundaries: {sides: {periodic: {x: [0, 1 m], y: [0, 0.6 m]}}}
+effects:
+  viscosity: {type: monaghan, alpha: 0.1}
+  xsph: {epsilon: 0.5}
+output: {until: 10 s, checkpoint: never}
+)";
+
+}  // namespace gannet::test
