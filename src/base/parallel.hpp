@@ -65,6 +65,12 @@ double parallel_sum(Index n, Index chunk, F&& f) {
   return parallel_reduce(n, chunk, 0.0, f, [](double a, double b) { return a + b; });
 }
 
+/// The same for sums of another type than double; zero: what an empty sum is.
+template <class T, class F>
+T parallel_sum(Index n, Index chunk, const T& zero, F&& f) {
+  return parallel_reduce(n, chunk, zero, f, [](const T& a, const T& b) -> T { return a + b; });
+}
+
 /// Entries per chunk for cheap loops over node tables.
 inline constexpr Index node_chunk = 4096;
 

@@ -28,16 +28,18 @@ void add_weight(Nodes& nodes, const Range& r, const Vec3& g) {
 }
 
 /// Work of the weight of a share along the path of level n: sum m g . work_path [J].
-double work_of_weight(const Scene& scene, const Share& share, const Step& step) {
+Work work_of_weight(const Scene& scene, const Share& share, const Step& step) {
   const Nodes& nodes = scene.nodes;
-  return parallel_sum(share.nodes.size(), node_chunk, [&](Index a, Index b) {
-    double work = 0;
+  const Work none = Work::Zero();
+  return parallel_sum(share.nodes.size(), node_chunk, none, [&](Index a, Index b) {
+    Work work = none;
     for (Index i = share.nodes.begin + a; i < share.nodes.begin + b; ++i) {
       if (share.mixed &&
           scene.particle_part[static_cast<std::size_t>(i - scene.particles.begin)] != share.part) {
         continue;
       }
-      work += nodes.x[static_cast<std::size_t>(i)].w * scene.gravity.dot(work_path(nodes, i, step));
+      work += nodes.x[static_cast<std::size_t>(i)].w *
+              work_along(work_path(nodes, i, step), scene.gravity);
     }
     return work;
   });
@@ -96,7 +98,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                     .reads = {"v", "f", "m"},
                     .run = [&scene, shares](const Step& step) {
                       for (const Share& share : shares) {
-                        share.work->add_work(work_of_weight(scene, share, step), step);
+                        share.work->add_work(work_of_weight(scene, share, step));
                       }
                     }});
   }

@@ -63,13 +63,14 @@ Vec3 share_at(const NodalForce& load, double t) {
   return value_at(load.factor, t) / static_cast<double>(load.nodes.size()) * load.total;
 }
 
-double work_of(const NodalForce& load, const std::vector<Index>& mine, const Nodes& nodes,
-               const Step& step) {
+Work work_of(const NodalForce& load, const std::vector<Index>& mine, const Nodes& nodes,
+             const Step& step) {
   const Vec3 share = share_at(load, step.t);
-  return parallel_sum(static_cast<Index>(mine.size()), chunk, [&](Index a, Index b) {
-    double work = 0;
+  const Work none = Work::Zero();
+  return parallel_sum(static_cast<Index>(mine.size()), chunk, none, [&](Index a, Index b) {
+    Work work = none;
     for (Index k = a; k < b; ++k) {
-      work += share.dot(work_path(nodes, mine[static_cast<std::size_t>(k)], step));
+      work += work_along(work_path(nodes, mine[static_cast<std::size_t>(k)], step), share);
     }
     return work;
   });
@@ -95,7 +96,7 @@ void add_operations(const NodalForce& load, Scene& scene, Model& model, Ledger& 
                   .stage = Stage::look,
                   .reads = {"v", "f"},
                   .run = [&load, &nodes, &work, mine](const Step& step) {
-                    work.add_work(work_of(load, mine, nodes, step), step);
+                    work.add_work(work_of(load, mine, nodes, step));
                   }});
 }
 

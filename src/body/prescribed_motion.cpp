@@ -25,10 +25,13 @@ Vec3 constrain(Line& rate, unsigned bits, const double* wanted, double dt) {
 }
 
 /// Path of a rotation at level n, as work_path() for translations [rad].
-Vec3 rotation_path(const Nodes& nodes, std::size_t i, const Step& step) {
+WorkPath rotation_path(const Nodes& nodes, std::size_t i, const Step& step) {
   const Vec3 omega = xyz(nodes.omega[i]);
   const Vec3 change = xyz(nodes.torque[i]) * (nodes.omega[i].w * 0.5 * (step.dt_old + step.dt));
-  return 0.5 * ((omega - change) * step.dt_old + omega * step.dt);
+  WorkPath path;
+  path.col(0) = (omega - change) * (0.5 * step.dt_old);
+  path.col(1) = omega * (0.5 * step.dt);
+  return path;
 }
 
 template <class F>
@@ -58,16 +61,18 @@ void kick_prescribed(PrescribedMotion& motion, const std::vector<Index>& entries
   });
 }
 
-double work_of_reactions(const PrescribedMotion& motion, const std::vector<Index>& entries,
-                         const Nodes& nodes, const Step& step) {
-  return parallel_sum(static_cast<Index>(entries.size()), chunk, [&](Index a, Index b) {
-    double work = 0;
+Work work_of_reactions(const PrescribedMotion& motion, const std::vector<Index>& entries,
+                       const Nodes& nodes, const Step& step) {
+  const Work none = Work::Zero();
+  return parallel_sum(static_cast<Index>(entries.size()), chunk, none, [&](Index a, Index b) {
+    Work work = none;
     for (Index e = a; e < b; ++e) {
       const auto k = static_cast<std::size_t>(entries[static_cast<std::size_t>(e)]);
       const Index i = motion.nodes[k];
-      work += xyz(motion.reaction[k]).dot(work_path(nodes, i, step));
+      work += work_along(work_path(nodes, i, step), xyz(motion.reaction[k]));
       if ((motion.mask[k] & rotations) == 0) continue;
-      work += xyz(motion.couple[k]).dot(rotation_path(nodes, static_cast<std::size_t>(i), step));
+      work += work_along(rotation_path(nodes, static_cast<std::size_t>(i), step),
+                         xyz(motion.couple[k]));
     }
     return work;
   });
@@ -127,7 +132,7 @@ void add_prescribed_motion(PrescribedMotion& motion, Scene& scene, Models& model
                     .stage = Stage::look,
                     .reads = {"v", "omega", "f", "torque"},
                     .run = [&motion, &nodes, &work, mine](const Step& step) {
-                      work.add_work(work_of_reactions(motion, mine, nodes, step), step);
+                      work.add_work(work_of_reactions(motion, mine, nodes, step));
                     }});
   }
   const std::vector<std::string> components{"x", "y", "z"};

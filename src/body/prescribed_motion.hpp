@@ -42,8 +42,8 @@ void kick_prescribed(PrescribedMotion& motion, const std::vector<Index>& entries
 
 /// Work of the reactions along the path of level n, rotations included [J]:
 ///   sum R . (v(n-1/2) dt_old + v(n+1/2) dt)/2
-double work_of_reactions(const PrescribedMotion& motion, const std::vector<Index>& entries,
-                         const Nodes& nodes, const Step& step);
+Work work_of_reactions(const PrescribedMotion& motion, const std::vector<Index>& entries,
+                       const Nodes& nodes, const Step& step);
 
 /// Sum of the reactions on the nodes at level n [N].
 Vec3 reaction_force(const PrescribedMotion& motion);

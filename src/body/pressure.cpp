@@ -88,13 +88,14 @@ void add_pressure(PressureLoad& load, Scene& scene, double t) {
   });
 }
 
-double work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step) {
+Work work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step) {
   const Range nodes = scene.parts[static_cast<std::size_t>(load.part)].nodes;
-  return parallel_sum(nodes.size(), chunk, [&](Index begin, Index end) {
-    double work = 0;
+  const Work none = Work::Zero();
+  return parallel_sum(nodes.size(), chunk, none, [&](Index begin, Index end) {
+    Work work = none;
     for (Index k = begin; k < end; ++k) {
-      work += xyz(load.force[static_cast<std::size_t>(k)])
-                  .dot(work_path(scene.nodes, nodes.begin + k, step));
+      work += work_along(work_path(scene.nodes, nodes.begin + k, step),
+                         xyz(load.force[static_cast<std::size_t>(k)]));
     }
     return work;
   });
@@ -116,7 +117,7 @@ void add_pressure_load(PressureLoad& load, Scene& scene, Models& models) {
                   .stage = Stage::look,
                   .reads = {"v", "f"},
                   .run = [&load, &scene, &work](const Step& step) {
-                    work.add_work(work_of_pressure(load, scene, step), step);
+                    work.add_work(work_of_pressure(load, scene, step));
                   }});
 }
 

@@ -46,7 +46,7 @@ void prepare(PressureLoad& load, const Scene& scene);
 void add_pressure(PressureLoad& load, Scene& scene, double t);
 
 /// Sum over nodes of force . work_path [J].
-double work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step);
+Work work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step);
 
 /// Prepares the load and adds its operations to the model of its part.
 void add_pressure_load(PressureLoad& load, Scene& scene, Models& models);

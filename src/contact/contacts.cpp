@@ -212,7 +212,7 @@ void add_nodes_on_planes(const Keys& keys, NodesOnPlanes& c, Scene& scene, Model
   look.reason = asked_for_at(c.where);
   look.stage = Stage::look;
   look.run = [&scene, &c, entry](const Step& step) {
-    entry->add_work(-work_of_planes(scene, c, step), step);
+    entry->add_work(-work_of_planes(scene, c, step));
   };
   model.plan.add(std::move(look));
 }

@@ -13,10 +13,10 @@ namespace {
 constexpr Index row_chunk = 512;
 
 /// Sum of N_i a_i over the corners of a gap's segment, a: one vector a surface node.
-template <class F>
-Vec3 at_foot(const Surface& surface, const Gap& gap, F&& of_node) {
+template <class T, class F>
+T at_foot(const Surface& surface, const Gap& gap, F&& of_node) {
   const Segment& g = surface.segments[static_cast<std::size_t>(gap.segment)];
-  Vec3 sum = Vec3::Zero();
+  T sum = T::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(g.n_corners); ++k) {
     sum += gap.N[k] * of_node(static_cast<std::size_t>(g.corner[k]));
   }
@@ -29,7 +29,7 @@ std::size_t node_of_row(const ContactInput& in, std::size_t row) {
 
 Vec3 relative_velocity(const ContactInput& in, std::size_t row) {
   const Surface& surface = *in.surface;
-  const Vec3 foot = at_foot(surface, in.gaps[row], [&](std::size_t i) {
+  const Vec3 foot = at_foot<Vec3>(surface, in.gaps[row], [&](std::size_t i) {
     return xyz(in.nodes->v[static_cast<std::size_t>(surface.node[i])]);
   });
   return xyz(in.nodes->v[node_of_row(in, row)]) - foot;
@@ -138,20 +138,21 @@ double contact_step(double omega2, double zeta) {
   return 0.4 * 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta);
 }
 
-double contact_work(const ContactInput& in, std::span<const Vec3> force,
-                    std::span<const Vec3> point_path_of_row, std::span<const Vec3> node_path) {
+Work contact_work(const ContactInput& in, std::span<const Vec3> force,
+                  std::span<const WorkPath> point_path_of_row,
+                  std::span<const WorkPath> node_path) {
   const auto rows = [&](Index begin, Index end) {
-    double work = 0;
+    Work work = Work::Zero();
     for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
       const Gap& gap = in.gaps[r];
       if (gap.segment < 0 || !(gap.penetration > 0)) continue;
-      const Vec3 foot =
-          at_foot(*in.surface, gap, [&](std::size_t i) -> const Vec3& { return node_path[i]; });
-      work += force[r].dot(point_path_of_row[r] - foot);
+      const WorkPath foot = at_foot<WorkPath>(
+          *in.surface, gap, [&](std::size_t i) -> const WorkPath& { return node_path[i]; });
+      work += work_along(point_path_of_row[r] - foot, force[r]);
     }
     return work;
   };
-  return parallel_sum(in.candidates->n_rows(), row_chunk, rows);
+  return parallel_sum(in.candidates->n_rows(), row_chunk, Work(Work::Zero()), rows);
 }
 
 }  // namespace gannet

@@ -10,6 +10,7 @@
 #include "base/math.hpp"
 #include "contact/gap.hpp"
 #include "contact/surface.hpp"
+#include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "search/segment_search.hpp"
 
@@ -98,7 +99,7 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
 double contact_step(double omega2, double zeta);
 
 /// Work of `force` on points and segments along work_path(), summed over the rows [J].
-double contact_work(const ContactInput& in, std::span<const Vec3> force,
-                    std::span<const Vec3> point_path_of_row, std::span<const Vec3> node_path);
+Work contact_work(const ContactInput& in, std::span<const Vec3> force,
+                  std::span<const WorkPath> point_path_of_row, std::span<const WorkPath> node_path);
 
 }  // namespace gannet

@@ -146,12 +146,12 @@ void add_work(Scene& scene, NodeToSegment& c, Model& model, Ledger& ledger) {
   op.run = [&scene, &c, normal, friction, damping](const Step& step) {
     find_paths(scene, c, step);
     const ContactInput in = input_of(scene, c, step);
-    const auto work = [&](const std::vector<Vec3>& force) {
+    const auto work = [&](const std::vector<Vec3>& force) -> Work {
       return contact_work(in, force, c.point_path, c.node_path);
     };
-    normal->add_work(-work(c.forces.normal), step);
-    if (friction != nullptr) friction->add_work(-work(c.forces.friction), step);
-    if (damping != nullptr) damping->add_work(-work(c.forces.damping), step);
+    normal->add_work(-work(c.forces.normal));
+    if (friction != nullptr) friction->add_work(-work(c.forces.friction));
+    if (damping != nullptr) damping->add_work(-work(c.forces.damping));
   };
   model.plan.add(std::move(op));
 }

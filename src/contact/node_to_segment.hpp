@@ -45,7 +45,7 @@ struct NodeToSegment {
   std::vector<Gap> gaps;
   ContactForces forces;
   std::vector<double> node_stiffness;
-  std::vector<Vec3> point_path, node_path;
+  std::vector<WorkPath> point_path, node_path;
   Scattered scattered;
   ContactRate rate;
 };

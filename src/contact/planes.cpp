@@ -106,7 +106,7 @@ void add_look(Scene& scene, ParticlesOnPlanes& state, Model& model, Ledger& ledg
   look.run = [&scene, &state, entries](const Step& step) {
     work_of_planes(scene, state, step);
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      entries[k]->add_work(-state.sums[k].work, step);
+      entries[k]->add_work(-state.sums[k].work);
     }
   };
   model.plan.add(std::move(look));
@@ -177,10 +177,10 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
       const Index i = state.touching[static_cast<std::size_t>(t)];
       const Index node = scene.particles.begin + i;
       const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(i)]);
-      const Vec3 path = work_path(scene.nodes, node, step);
+      const WorkPath path = work_path(scene.nodes, node, step);
       const Line& x = scene.nodes.x[static_cast<std::size_t>(node)];
       for (std::size_t k = 0; k < n_planes; ++k) {
-        sums[k].work += force_on_particle(scene.planes[k], state.law[part], x).dot(path);
+        sums[k].work += work_along(path, force_on_particle(scene.planes[k], state.law[part], x));
       }
     }
   });
@@ -208,15 +208,15 @@ void nodes_on_planes(Scene& scene, NodesOnPlanes& state) {
   }
 }
 
-double work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
+Work work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
   const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
-  double work = 0;
+  Work work = Work::Zero();
   std::size_t entry = 0;
   for (std::size_t k = 0; k < state.planes.size(); ++k) {
     for (Index i = range.begin; i < range.end; ++i, ++entry) {
       const Line& x = scene.nodes.x[static_cast<std::size_t>(i)];
       if (height(state.planes[k], x) >= state.law.distance) continue;
-      work += force_on_node(state, k, entry, x).dot(work_path(scene.nodes, i, step));
+      work += work_along(work_path(scene.nodes, i, step), force_on_node(state, k, entry, x));
     }
   }
   return work;

@@ -18,7 +18,7 @@ namespace gannet {
 /// What one plane does at this level.
 struct PlaneSums {
   Vec3 force = Vec3::Zero();  ///< on the plane [N]
-  double work = 0;            ///< of the plane on what touches it, along work_path() [J]
+  Work work = Work::Zero();   ///< of the plane on what touches it, along work_path() [J]
 };
 
 /// How nodes meet planes: contact distance and stiffness of a node of mass m, k = rate2 m + fixed.
@@ -70,7 +70,7 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
 void nodes_on_planes(Scene& scene, NodesOnPlanes& state);
 
 /// Work of the planes on the nodes of the part at this level [J].
-double work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
+Work work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
 
 /// Step that springs of rate k/m allow beside what else acts on the nodes: 0.4 of 2/sqrt(k/m)
 /// (see contact_step()); no limit for 0.

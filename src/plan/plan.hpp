@@ -56,6 +56,9 @@ struct Operation {
   Stopwatch watch;
 };
 
+/// Work of a force at level n [J]: of the half step before the level, and of the half step after.
+using Work = Eigen::Vector2d;
+
 /// One entry of the energy ledger. Stored and dissipated energies are positive; what comes in from
 /// outside (external work) is positive in `external` entries.
 struct LedgerEntry {
@@ -67,12 +70,11 @@ struct LedgerEntry {
   double value = 0;    ///< up to level n [J]
   double pending = 0;  ///< of the work measured at level n, what belongs to the step after it [J]
 
-  /// Adds work that was measured along work_path() at level n: the share of the step before the
-  /// level counts now, that of the step after it at the next level.
-  void add_work(double work, const Step& step) {
-    const double after = work * step.dt / (step.dt_old + step.dt);
-    value += pending + (work - after);
-    pending = after;
+  /// Adds work that was measured along work_path() at level n: what belongs to the step before the
+  /// level counts now, what belongs to the step after it at the next level.
+  void add_work(const Work& work) {
+    value += pending + work[0];
+    pending = work[1];
   }
 };
 
@@ -134,13 +136,22 @@ inline Vec3 velocity_at_level(const Nodes& nodes, Index i, double dt) {
           nodes.v[i].z - s * nodes.f[i].z};
 }
 
-/// Displacement that work at level n is measured along: (v(n-1/2) dt_old + v(n+1/2) dt)/2, so that
-/// over a step the work of a force is its trapezoid (f(n) + f(n+1))/2 . (x(n+1) - x(n)).
-inline Vec3 work_path(const Nodes& nodes, Index i, const Step& step) {
+/// What work at level n is measured along [m]: column 0 is v(n-1/2) dt_old/2, the half step before
+/// the level, column 1 is v(n+1/2) dt/2, the half step after it.
+using WorkPath = Eigen::Matrix<double, 3, 2>;
+
+/// Path of node i at level n, after the kick. With it the work of a force over a step is the
+/// trapezoid (f(n) + f(n+1))/2 . (x(n+1) - x(n)).
+inline WorkPath work_path(const Nodes& nodes, Index i, const Step& step) {
   const Vec3 v_new = xyz(nodes.v[i]);
   const Vec3 a = xyz(nodes.f[i]) * nodes.v[i].w;
-  const Vec3 v_old = v_new - a * (0.5 * (step.dt_old + step.dt));
-  return 0.5 * (v_old * step.dt_old + v_new * step.dt);
+  WorkPath path;
+  path.col(0) = (v_new - a * (0.5 * (step.dt_old + step.dt))) * (0.5 * step.dt_old);
+  path.col(1) = v_new * (0.5 * step.dt);
+  return path;
 }
+
+/// Work of a force [N] along a path, before and after the level [J].
+inline Work work_along(const WorkPath& path, const Vec3& force) { return path.transpose() * force; }
 
 }  // namespace gannet

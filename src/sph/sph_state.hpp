@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/array.hpp"
@@ -71,9 +72,16 @@ inline const Murnaghan& eos_of(const SphState& sph, const Scene& scene, Index k)
 /// Sum of f(k) over the particles of a part, in chunks that are the same for any number of threads.
 /// f: a function of the particle's index among the particles.
 template <class F>
-double sum_over_part(const Scene& scene, int part, F&& f) {
-  return parallel_sum(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
-    double sum = 0;
+auto sum_over_part(const Scene& scene, int part, F&& f) {
+  using T = std::decay_t<decltype(f(Index{0}))>;
+  T zero;
+  if constexpr (std::is_arithmetic_v<T>) {
+    zero = 0;
+  } else {
+    zero.setZero();
+  }
+  return parallel_sum(scene.particles.size(), node_chunk, zero, [&](Index begin, Index end) {
+    T sum = zero;
     for (Index k = begin; k < end; ++k) {
       if (scene.particle_part[k] == part) sum += f(k);
     }

@@ -52,9 +52,10 @@ void make_state(const Keys& root, Scene& scene) {
 }
 
 /// Energy that viscosity took from the motion of a part along the path of level n [J].
-double dissipated(const SphState& sph, const Scene& scene, int part, const Step& step) {
-  return -sum_over_part(scene, part, [&](Index k) {
-    return xyz(sph.f_viscous[k]).dot(work_path(scene.nodes, scene.particles.begin + k, step));
+Work dissipated(const SphState& sph, const Scene& scene, int part, const Step& step) {
+  return -sum_over_part(scene, part, [&](Index k) -> Work {
+    return work_along(work_path(scene.nodes, scene.particles.begin + k, step),
+                      xyz(sph.f_viscous[k]));
   });
 }
 
@@ -74,7 +75,7 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                  .owns = {"f_viscous"},
                  .run = [&, entries](const Step& step) {
                    for (std::size_t k = 0; k < entries.size(); ++k) {
-                     entries[k]->value += dissipated(sph, scene, sph.parts[k], step);
+                     entries[k]->add_work(dissipated(sph, scene, sph.parts[k], step));
                    }
                  }});
 }

@@ -13,7 +13,7 @@ namespace {
 Schema guards_schema() {
   Key guards{.name = "guards", .kind = Kind::map, .text = "limits at which a run is stopped"};
   guards.keys = {{.name = "energy_error",
-                  .text = "largest energy imbalance over the largest total energy so far",
+                  .text = "largest energy imbalance over the sizes of all energies together",
                   .fallback = "20 %",
                   .limits = positive()},
                  {.name = "smallest_dt_ratio",
@@ -121,7 +121,7 @@ void check_density(const Scene& scene, const GuardLimits& limits, const Step& s)
 }
 
 void check_energy(const GuardState& state, const Step& s) {
-  const double error = state.balance.error();
+  const double error = state.balance.error_of_scale();
   if (std::abs(error) <= state.limits.energy_error) return;
   throw RunError(
       {fmt::format("the energy balance is off by {:.3g} %", 100 * error),
@@ -148,14 +148,17 @@ void save(GuardState& s) {
   s.record[1] = s.balance.largest_total;
   s.record[2] = s.balance.imbalance;
   s.record[3] = s.balance.started ? 1 : 0;
+  s.record[5] = s.balance.scale;
 }
 
-void load(GuardState& s) { s.balance = {s.record[0], s.record[1], s.record[2], s.record[3] != 0}; }
+void load(GuardState& s) {
+  s.balance = {s.record[0], s.record[1], s.record[2], s.record[3] != 0, s.record[5]};
+}
 
 void guards_state(const Keys& root, Scene& scene) {
   GuardState& state = scene.store.get<GuardState>();
   state.limits = read_limits(root);
-  state.record.assign(5, 0.0);
+  state.record.assign(6, 0.0);
   Field f = plain_field("guards", "", "", Over::scene, state.record, 1, GhostRule::none);
   f.owner = "guards";
   scene.fields.push_back(std::move(f));

@@ -8,7 +8,7 @@ namespace gannet {
 
 /// Limits of the guards; keys under effects.guards.
 struct GuardLimits {
-  double energy_error = 0.2;        ///< |imbalance| over the largest total energy so far
+  double energy_error = 0.2;        ///< |imbalance| over the scale of the energy balance
   double smallest_dt_ratio = 1e-4;  ///< step over the first step
   double largest_speed = 0;         ///< [m/s]; 0: no limit but finite
   double density_range = 0.5;       ///< |rho/rho_start_mean - 1| of a particle
@@ -18,7 +18,8 @@ struct GuardLimits {
 struct GuardState {
   GuardLimits limits;
   EnergyBalance balance;
-  Array<double> record;  ///< start held, largest total, imbalance, started, first dt (tracked)
+  Array<double> record;  ///< start held, largest total, imbalance, started, first dt,
+                         ///< scale (tracked)
 };
 
 /// The effect "guards": always on. Adds, at the end of look of the fastest model, "energy

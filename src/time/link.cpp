@@ -53,7 +53,7 @@ void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
     const Vec3 v = velocity_at_level(nodes, link.nodes[k], link.fast->step.dt);
     work += xyz(link.force[k]).dot(v);
   }
-  entry.add_work(-0.5 * (slow.dt_old + slow.dt) * work, slow);
+  entry.add_work(-0.5 * work * Work(slow.dt_old, slow.dt));
 }
 
 }  // namespace

@@ -29,8 +29,10 @@ void add_value(std::vector<std::byte>& bytes, const T& value) {
   add_bytes(bytes, &value, sizeof value);
 }
 
-/// The entries of a field in their order in memory, ghosts too, without padding.
+/// The entries of a field in their order in memory, ghosts too, without padding. What is made for
+/// output alone is made first.
 inline std::vector<std::byte> bytes_in(const Field& f) {
+  if (f.prepare) f.prepare();
   std::vector<std::byte> bytes;
   const std::size_t size = static_cast<std::size_t>(size_of(f.type));
   bytes.reserve(size * static_cast<std::size_t>(f.count()) *
@@ -92,10 +94,12 @@ inline void check_same(const Bits& a, const Bits& b) {
 }
 
 /// A simulation that writes down, at the end of look of every step, all that a history may hold:
-/// the time, every measure, every entry of the ledger and the energy balance.
+/// the time, every entry of the ledger and the energy balance; and every measure, but only at each
+/// `measures_every`th step, because some take long.
 struct WatchedRun {
   std::unique_ptr<Simulation> s;
   std::map<std::int64_t, std::vector<double>> history;  ///< by number of the step
+  std::int64_t measures_every = 25;
 
   WatchedRun(const std::string& file, const std::vector<std::string>& set)
       : s(make_simulation(file, set)) {
@@ -131,14 +135,17 @@ struct WatchedRun {
                                     .stage = Stage::look,
                                     .run = [this](const Step& step) { write_down(step); }});
   }
-  void write_down(const Step& step) {
-    std::vector<double>& row = history[step.n];
-    row = {step.t, step.dt_old, step.dt};
+  void add_measures(std::vector<double>& row) {
     for (const Measure& m : s->scene.measures) {
       const std::size_t first = row.size();
       row.resize(first + m.components.size());
       m.sample(row.data() + first);
     }
+  }
+  void write_down(const Step& step) {
+    std::vector<double>& row = history[step.n];
+    row = {step.t, step.dt_old, step.dt};
+    if (step.n % measures_every == 0) add_measures(row);
     for (const LedgerEntry& e : s->models.ledger.entries()) row.push_back(e.value);
     row.push_back(s->models.ledger.held());
     row.push_back(s->models.ledger.external());

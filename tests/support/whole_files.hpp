@@ -74,7 +74,9 @@ std::string vtk_problem(const std::string& path) {
 
 /// Parses a .pvd and looks for the files that it names.
 inline std::string pvd_problem(const std::filesystem::path& path) {
+  vtkNew<ErrorCount> errors;
   vtkNew<vtkXMLDataParser> parser;
+  parser->AddObserver(vtkCommand::ErrorEvent, errors);
   parser->SetFileName(path.c_str());
   if (parser->Parse() != 1) return "not XML";
   vtkXMLDataElement* sets = parser->GetRootElement()->FindNestedElementWithName("Collection");
@@ -106,6 +108,15 @@ inline std::string json_problem(const std::string& path) {
   return nlohmann::json::accept(bytes_of_file(path)) ? "" : "not JSON";
 }
 
+/// A PNG begins with its signature and ends with its last chunk.
+inline std::string png_problem(const std::string& path) {
+  using namespace std::string_literals;
+  const std::string bytes = bytes_of_file(path);
+  const bool whole =
+      bytes.starts_with("\x89PNG\r\n\x1a\n"s) && bytes.ends_with("\0\0\0\0IEND\xae\x42\x60\x82"s);
+  return whole ? "" : "cut off";
+}
+
 /// What there was in an output folder.
 struct FolderState {
   int n_files = 0;        ///< under final names
@@ -132,6 +143,7 @@ inline FolderState look_into(
     if (ending == ".vtu") problem = vtk_problem<vtkXMLUnstructuredGridReader>(path);
     if (ending == ".pvd") problem = pvd_problem(entry.path());
     if (ending == ".csv") problem = csv_problem(path);
+    if (ending == ".png") problem = png_problem(path);
     if (ending == ".json") problem = json_problem(path);
     if (ending == ".h5") problem = checkpoint_problem(path);
     if (!problem.empty()) state.problems.push_back(path + ": " + problem);

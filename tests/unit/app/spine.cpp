@@ -54,11 +54,11 @@ void add_weight(Scene& scene, Model& model, Ledger& ledger) {
   model.plan.add({.name = "work of gravity",
                   .stage = Stage::look,
                   .run = [&scene, &entry, r, g](const Step& s) {
-                    double work = 0;
+                    Work work = Work::Zero();
                     for (Index i = r.begin; i < r.end; ++i) {
-                      work += scene.nodes.x[i].w * g.dot(work_path(scene.nodes, i, s));
+                      work += scene.nodes.x[i].w * work_along(work_path(scene.nodes, i, s), g);
                     }
-                    entry.add_work(work, s);
+                    entry.add_work(work);
                   }});
 }
 

@@ -69,11 +69,11 @@ Hull make_hull(const Mat3& inertia, const Vec3& omega, const Vec3& velocity,
   }
   const std::vector<Index> members = input.members;
   model.plan.add({.name = "work", .stage = Stage::look, .run = [=, &scene, &work](const Step& s) {
-                    double w = 0;
+                    Work w = Work::Zero();
                     for (std::size_t k = 0; k < push.size(); ++k) {
-                      w += push[k](s.t).dot(work_path(scene.nodes, members[k], s));
+                      w += work_along(work_path(scene.nodes, members[k], s), push[k](s.t));
                     }
-                    work.add_work(w, s);
+                    work.add_work(w);
                   }});
   return hull;
 }

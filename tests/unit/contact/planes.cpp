@@ -156,6 +156,7 @@ TEST_CASE("planes: shell nodes rest on a plane, start penetration makes no force
   scene.nodes.v[1].z = 100.0 / 3 * 1e-3 / 2;
   Step step;
   step.dt = 1e-3;
-  CHECK(work_of_planes(scene, c, step) ==
-        Approx((200 * 200 + 100 * 100) / 3.0 * 1e-3 / 2 * 1e-3 / 2));
+  const Work work = work_of_planes(scene, c, step);
+  CHECK(work[0] == 0);  // there is no step before the first level
+  CHECK(work[1] == Approx((200 * 200 + 100 * 100) / 3.0 * 1e-3 / 2 * 1e-3 / 2));
 }

@@ -25,6 +25,14 @@ TEST_CASE("override: keys that the file does not have are added; lists are YAML"
   CHECK(c->keys().map("parts").map("pool").vector("velocity") == Vec3(0, 0, -2));
 }
 
+TEST_CASE("override: off takes a map out of the case, on keeps it or makes one", "[input]") {
+  CHECK_FALSE(read(text, {"effects.xsph=off"})->keys().map("effects").given("xsph"));
+  const auto kept = read(text, {"effects.xsph.epsilon=0.25", "effects.xsph=on"});
+  CHECK(kept->keys().map("effects").map("xsph").number("epsilon") == 0.25);
+  CHECK(read(text, {"effects.xsph=off", "effects.xsph=on"})->keys().map("effects").has("xsph"));
+  CHECK(read(text, {"effects.xsph=off"})->hash != read(text, {"effects.xsph=on"})->hash);
+}
+
 TEST_CASE("override: a mistake names the option", "[input]") {
   CHECK(mistakes_in(text, {"let.dx=8 mss"}) ==
         "--set let.dx=8 mss: let.dx: '8 mss': unknown unit 'mss'");

@@ -106,17 +106,45 @@ TEST_CASE("leapfrog: energy stays bounded over 10^5 steps at 0.9 of the limit", 
   CHECK(std::isfinite(balance.error()));
 }
 
+TEST_CASE("ledger: a constant force gives its work as kinetic energy at every level", "[time]") {
+  Scene scene;
+  scene.nodes.n_owned = 1;
+  scene.nodes.x = {{0, 0, 0, 2}};
+  scene.nodes.v = {{0.3, 0, 0, 0.5}};
+  scene.nodes.f = {{}};
+  scene.parts.resize(1);
+  scene.parts[0].cell = Cell::line;
+  scene.parts[0].nodes = {0, 1};
+  Models models;
+  Model& model = models.list.emplace_back();
+  model.ranges = {{0, 1}};
+  add_leapfrog(scene, model, models.ledger);
+  LedgerEntry& entry = models.ledger.entry("push", "");
+  entry.external = true;
+  double dt = 0.1;
+  const Vec3 push(7, 0, 0);
+  model.plan.add({.name = "push",
+                  .stage = Stage::force,
+                  .run = [&](const Step&) { add_xyz(scene.nodes.f[0], push); },
+                  .stable_dt = [&] { return dt; }});
+  EnergyBalance balance;
+  model.plan.add({.name = "work", .stage = Stage::look, .run = [&](const Step& s) {
+                    entry.add_work(work_along(work_path(scene.nodes, 0, s), push));
+                    balance.update(models.ledger);
+                    CHECK(std::abs(balance.error()) < 1e-14);
+                  }});
+  for (int k = 0; k < 20; ++k) {
+    advance(models);
+    dt = 0.1 * (1 + 0.5 * std::sin(k));
+  }
+}
+
 TEST_CASE("ledger: work measured at a level is shared by the steps on both sides", "[plan]") {
   LedgerEntry e;
-  Step s;
-  s.dt_old = 1;
-  s.dt = 3;
-  e.add_work(8, s);
+  e.add_work({2, 6});
   CHECK(e.value == 2);
   CHECK(e.pending == 6);
-  s.dt_old = 3;
-  s.dt = 1;
-  e.add_work(4, s);
+  e.add_work({3, 1});
   CHECK(e.value == 2 + 6 + 3);
   CHECK(e.pending == 1);
 }
