@@ -8,6 +8,8 @@
 #include "mesh/mesh_keys.hpp"
 #include "output/output.hpp"
 #include "sph/effects.hpp"
+#include "study/hard_case.hpp"
+#include "study/study_file.hpp"
 #include "time/guards.hpp"
 #include "time/leapfrog.hpp"
 
@@ -45,10 +47,13 @@ std::vector<Effect> make_table() {
       pressure_effect(),           //
       nodal_force_effect(),        //
       periodic_effect(),           // copies out what moved, adds back what ghosts collected
+      mirror_walls_effect(),       // images at walls; adds to what planes measure
       prescribed_motion_effect(),  // after all forces: measures the reactions
       probes_effect(),             //
       sph_probes_effect(),         //
       guards_effect(),             // after all energies are known
+      study_effect(),              // keys only: what `gannet study` varies and measures
+      hard_effect(),               // keys only: limits that `gannet hard` holds a case to
       output_effect(),             // last: looks at everything, changes nothing
   };
 }

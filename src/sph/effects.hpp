@@ -19,6 +19,10 @@ Effect xsph_effect();
 /// adding back after everything else that adds forces.
 Effect periodic_effect();
 
+/// Planes across an axis mirror the water in front of them. Stands after `periodic`, which says
+/// which directions repeat, and after the effects that make planes and their measures.
+Effect mirror_walls_effect();
+
 /// probes.NAME: pressure at a point, height of the surface, front of the water.
 Effect sph_probes_effect();
 

@@ -1,6 +1,7 @@
-// The effect `periodic`: directions in which the domain of the particles repeats. Images are ghost
-// particles, made with the neighbour lists; here are the keys and the halo operations that keep
-// them. Without a periodic direction none of these operations exists.
+// The effect `periodic`: directions in which the domain of the particles
+// repeats. Images are ghost particles, made with the neighbour lists; here are
+// the keys, and the halo operations that keep images of every kind. Without a
+// periodic direction or a mirror wall none of these exists.
 #include <fmt/format.h>
 
 #include <array>
@@ -77,12 +78,13 @@ void make_state(const Keys& root, Scene& scene) {
 }
 
 void add_operations(const Keys& root, Scene& scene, Models& models) {
-  const std::vector<Keys> asked = asked_for(root);
-  if (asked.empty() || scene.particles.empty()) return;
+  if (scene.particles.empty()) return;
   auto& sph = scene.store.get<SphState>();
   if (!sph.halo.active()) return;
+  const std::vector<Keys> asked = asked_for(root);
   Plan& plan = models.of_node(scene.particles.begin).plan;
-  const std::string reason = asked_for_at(asked.front().where());
+  const std::string reason = asked.empty() ? "rule: walls across an axis mirror the water"
+                                           : asked_for_at(asked.front().where());
   plan.add({.name = "halo: add back",
             .reason = reason,
             .stage = Stage::force,
