@@ -26,7 +26,7 @@ View three_quarter_view(double azimuth, double elevation) {
 }  // namespace
 
 View view_of(const std::string& text) {
-  if (text == "iso") return three_quarter_view(30, 20);
+  if (text == "iso") return three_quarter_view(-30, 20);
   if (text == "x") return {Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()};
   if (text == "y") return {Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
   if (text == "z") return {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};

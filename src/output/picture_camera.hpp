@@ -16,7 +16,7 @@ struct View {
 };
 
 /// "x": seen from +x, z up. "y": from -y (the front: x to the right), z up. "z": from +z, y up.
-/// "iso": three-quarter view, the same as "30,20". "A,E": from the front, moved A degrees about z
+/// "iso": three-quarter view, the same as "-30,20". "A,E": from the front, moved A degrees about z
 /// towards +x and raised by E degrees. Throws InputError for anything else.
 View view_of(const std::string& text);
 

@@ -7,7 +7,7 @@
 
 namespace gannet {
 
-Rgb viridis(double t) {
+Rgb colour_at(double t) {
   static constexpr std::array<Rgb, 9> table{{{0x44, 0x01, 0x54},
                                              {0x47, 0x2d, 0x7b},
                                              {0x3b, 0x52, 0x8b},
@@ -18,7 +18,9 @@ Rgb viridis(double t) {
                                              {0xaa, 0xdc, 0x32},
                                              {0xfd, 0xe7, 0x25}}};
   constexpr int n_pieces = static_cast<int>(table.size()) - 1;
-  const double s = std::isnan(t) ? 0 : std::clamp(t, 0.0, 1.0) * n_pieces;
+  constexpr double left_out = 0.2;
+  const double along = left_out + (1 - left_out) * (std::isnan(t) ? 0 : std::clamp(t, 0.0, 1.0));
+  const double s = along * n_pieces;
   const int piece = std::min(static_cast<int>(s), n_pieces - 1);
   return mix(table[static_cast<std::size_t>(piece)], table[static_cast<std::size_t>(piece) + 1],
              s - piece);

@@ -8,9 +8,10 @@
 
 namespace gannet {
 
-/// Colour of t in [0, 1], clamped: viridis, dark violet over green to yellow, of even steps in
-/// brightness. Nine colours of Smith and van der Walt's map, linear in between.
-Rgb viridis(double t);
+/// Colour of t in [0, 1], clamped: from blue over green to yellow, in even steps of brightness. It
+/// is viridis (Smith and van der Walt), nine colours with straight lines in between, without its
+/// darkest fifth, which would be black on the dark side of a sphere.
+Rgb colour_at(double t);
 
 /// Numbers that a colour bar runs over, SI.
 struct Span {

@@ -105,8 +105,8 @@ void darken_gaps(Canvas& canvas, int reach, double strength) {
           const float above = canvas.depth[canvas.image.at(c, r)] - canvas.depth[at];
           covered += std::clamp(above / static_cast<float>(reach) - 0.5F, 0.0F, 1.0F);
         }
-        canvas.image.pixels[at] = shaded(canvas.image.pixels[at],
-                                         std::exp(static_cast<float>(-strength) * covered / 8));
+        canvas.image.pixels[at] =
+            shaded(canvas.image.pixels[at], std::exp(static_cast<float>(-strength) * covered / 8));
       }
     }
   });

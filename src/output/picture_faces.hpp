@@ -20,7 +20,8 @@ struct Paint {
 /// see-through surface has no seams.
 void draw_triangle(Canvas& canvas, const std::array<Vec3, 3>& corners, const Paint& paint);
 
-/// A straight edge of `width` pixels from a to b (column, row, depth), hidden by what is nearer.
+/// A straight edge of `width` pixels from a to b (column, row, depth) with round
+/// ends, hidden by what is nearer.
 void draw_edge(Canvas& canvas, const Vec3& a, const Vec3& b, double width, const Paint& paint);
 
 /// Darkens what lies behind its neighbours on the picture, so that outlines and gaps can be seen:

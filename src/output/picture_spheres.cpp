@@ -16,8 +16,8 @@ constexpr float outside = -1e30F;  ///< depth of the corners of the disc's squar
 /// What every sphere looks like: a square of (2 reach + 1)^2 pixels about its middle.
 struct Disc {
   int reach = 0;
-  std::vector<int> half_width;      ///< of each row
-  std::vector<float> relief;        ///< depth above that of the middle
+  std::vector<int> half_width;  ///< of each row
+  std::vector<float> relief;    ///< depth above that of the middle
   std::vector<float> brightnesses;
 
   [[nodiscard]] std::size_t at(int across, int down) const {
@@ -142,7 +142,7 @@ void colour_owned(Canvas& canvas, const std::vector<Index>& owners, const Disc& 
 float brightness(float right, float up, float toward) {
   // (-0.4, 0.6, 0.7) made a unit vector.
   const float along = -0.398F * right + 0.597F * up + 0.697F * toward;
-  return 0.5F + 0.5F * std::max(0.0F, along);
+  return 0.55F + 0.5F * std::max(0.0F, along);
 }
 
 void draw_spheres(Canvas& canvas, std::span<const Sphere> spheres, double radius) {

@@ -17,7 +17,7 @@ struct Sphere {
 
 /// Brightness of a surface whose unit normal is (right, up, toward the viewer) in the directions
 /// of the picture: light comes from the upper left, from behind the viewer.
-///   0.5 + 0.5 max(0, n . l)
+///   0.55 + 0.5 max(0, n . l)
 float brightness(float right, float up, float toward);
 
 /// Draws spheres of one radius [pixels, at least 0.5], hidden where the canvas already shows

@@ -15,7 +15,8 @@ struct Stroke {
   double y1 = 0;
 };
 
-/// Draws a stroke with a pen of the given width [pixels].
+/// Draws a stroke with a pen of the given width [pixels]; the outermost pixel is mixed with what
+/// was there, by how much of it the pen covers.
 void draw_stroke(Image& image, const Stroke& stroke, double pen, Rgb colour);
 
 /// How text looks; height of a capital letter [pixels].
@@ -24,9 +25,8 @@ struct Lettering {
   Rgb colour;
 };
 
-/// Width of a text [pixels]. Letters stand 7/6 of a capital's height apart times 4/6 + ...: each is
-/// as wide as its shape. Characters that are not printable ASCII are shown as '?', one for each
-/// character of UTF-8.
+/// Width of a text [pixels]; every letter is as wide as its shape. Characters that are not
+/// printable ASCII are shown as '?', one for each character of UTF-8.
 double text_width(std::string_view text, double height);
 
 /// Writes text whose baseline begins at (left, baseline).
