@@ -8,9 +8,11 @@ namespace gannet::test {
 
 inline const std::string panel_slam = "cases/panel_slam/case.yaml";
 
-/// The real case with coarser water and fewer elements: more than one chunk of particles still.
+/// The real case with coarser water and fewer elements, but more than one chunk of particles; and
+/// with a thin skin, so that lists are made anew often.
 inline const std::vector<std::string> small_panel{
-    "let.dx=30mm", "parts.panel.shape.plate.elements=[16, 11]", "output.checkpoint=never"};
+    "let.dx=30mm", "parts.panel.shape.plate.elements=[16, 11]", "parts.pool.sph.skin=0.06",
+    "output.checkpoint=never"};
 
 /// The dam break with finer water: 7200 particles, more than one chunk, and its walls.
 inline const std::string dam_break = "cases/dam_break_2d/case.yaml";

@@ -15,10 +15,16 @@ namespace {
 
 constexpr std::int64_t n_past_contact = 1000;
 
+std::unique_ptr<WatchedRun> start() {
+  auto r = std::make_unique<WatchedRun>(panel_slam, std::vector<std::string>{});
+  r->measures_every = 100;
+  return r;
+}
+
 /// Runs to 1000 steps past first contact.
 std::unique_ptr<WatchedRun> whole_run(int n_threads) {
   set_threads(n_threads);
-  auto r = std::make_unique<WatchedRun>(panel_slam, std::vector<std::string>{});
+  auto r = start();
   r->until_above_zero("contact.slam.active");
   r->steps(n_past_contact);
   return r;
@@ -28,7 +34,7 @@ std::unique_ptr<WatchedRun> whole_run(int n_threads) {
 std::unique_ptr<WatchedRun> resumed(const WatchedRun& r, const std::string& folder) {
   const std::string path = folder + "/checkpoint_1.h5";
   write_checkpoint(path, r.s->scene, r.s->models, r.s->scene.store.get<RunRecord>());
-  auto next = std::make_unique<WatchedRun>(panel_slam, std::vector<std::string>{});
+  auto next = start();
   Simulation& s = *next->s;
   read_checkpoint(path, s.scene, s.models, s.scene.store.get<RunRecord>());
   return next;
@@ -38,7 +44,7 @@ std::unique_ptr<WatchedRun> resumed(const WatchedRun& r, const std::string& fold
 std::unique_ptr<WatchedRun> cut_run(const WatchedRun& whole) {
   const TemporaryFolder folder;
   set_threads(2);
-  auto r = std::make_unique<WatchedRun>(panel_slam, std::vector<std::string>{});
+  auto r = start();
   const std::int64_t contact = r->until_above_zero("contact.slam.active");
   CHECK(contact == whole.at().n - n_past_contact);
   r->steps(400);
