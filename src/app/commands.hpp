@@ -19,6 +19,47 @@ struct RunOptions {
   bool force = false;            ///< overwrite results, or accept a checkpoint of a changed case
 };
 
+struct RenderOptions {
+  std::string folder;            ///< output folder of a run, or its .pvd
+  std::string frame = "last";    ///< number in the .pvd from 0, or "last"
+  bool all = false;              ///< every frame, numbered
+  std::string out;               ///< file (--all: folder); empty: named after the run, here
+  std::string colour = "speed";  ///< quantity
+  std::string view;              ///< empty: iso; plane scenes: z
+  std::string size = "1280x720";
+  std::string cut;    ///< "y=0"
+  std::string range;  ///< "0:12", SI
+  std::string title;  ///< empty: name of the run
+  double opacity = 1;
+  int threads = 0;  ///< 0: all cores
+};
+
+struct HardOptions {
+  std::vector<std::string> names;  ///< files, or names in the folder; none: all of the folder
+  std::string folder;              ///< of hard cases; empty: tests/hard here or above
+  bool long_form = false;
+  std::vector<std::string> maps;  ///< "key=lowest..highest", one or two
+  int points = 9;                 ///< of each parameter of a map
+  int steps = 0;                  ///< of each run of a map; 0: as the case says
+  std::string out;                ///< the SVG; empty: CASE_map.svg here
+  int threads = 0;                ///< 0: all cores
+};
+
+struct StudyOptions {
+  std::string file;                  ///< a study file, or a case
+  std::vector<std::string> set;      ///< "key.path=value" in all runs
+  std::vector<std::string> vary;     ///< "let.dx=8mm,4mm"
+  std::vector<std::string> measure;  ///< "peak:slam_force:z"
+  std::string reference;             ///< finest, richardson, a number, FILE.csv
+  std::string budget;                ///< wall time, with unit
+  std::string refine;                ///< the key along which results converge
+  std::string out;                   ///< folder; empty: beside the file
+  int repeats = 0;                   ///< 0: as the file says
+  int parallel = 0;                  ///< 0: as the file says
+  int threads = 0;                   ///< of each run; 0: as the file says
+  bool dry = false;                  ///< print the runs only
+};
+
 /// Runs a case to its end.
 int run_command(const RunOptions& options);
 
@@ -30,5 +71,16 @@ int explain_command(const RunOptions& options);
 
 /// Times kernels and whole steps beside the limits of the machine.
 int bench_command(const BenchOptions& options);
+
+/// Draws frames of a finished or running run as PNG files; needs no display.
+int render_command(const RenderOptions& options);
+
+/// Runs hard cases and their variants against their limits, or draws a stability map of one.
+/// Returns 1 where a limit was broken that had to be kept, or kept that had to be broken.
+int hard_command(const HardOptions& options);
+
+/// Runs a case with several settings and shows what accuracy costs: tables, pictures and plain
+/// sentences. Runs that are done are not made again.
+int study_command(const StudyOptions& options);
 
 }  // namespace gannet

@@ -48,6 +48,66 @@ void add_bench(CLI::App& app, BenchOptions& options, int& code) {
   bench->callback([&] { code = bench_command(options); });
 }
 
+void add_render(CLI::App& app, RenderOptions& options, int& code) {
+  CLI::App* render = app.add_subcommand("render", "draw pictures of a run, without a display");
+  render->add_option("folder", options.folder, "output folder of a run, or its .pvd")->required();
+  render->add_option("--frame", options.frame, "number of the frame, or last (default)");
+  render->add_flag("--all", options.all, "draw every frame; --out is a folder then");
+  render->add_option("--out", options.out, "the PNG file (default: RUN_FRAME.png here)");
+  render->add_option("--colour,--color", options.colour,
+                     "speed (default), pressure, plastic_strain, ... : any array of the files");
+  render->add_option("--view", options.view,
+                     "iso, x, y, z, or AZIMUTH,ELEVATION in degrees (default: iso; in 2D: z)");
+  render->add_option("--size", options.size, "pixels (default: 1280x720)");
+  render->add_option("--cut", options.cut, "leave out what is before this plane: \"y=0\"");
+  render->add_option("--range", options.range, "LOW:HIGH of the colours, SI (default: all values)");
+  render->add_option("--title", options.title, "text at the top (default: name of the run)");
+  render->add_option("--opacity", options.opacity, "of faces (default: 1)")
+      ->check(CLI::Range(0.0, 1.0));
+  render->add_option("--threads", options.threads, "number of threads (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  render->callback([&] { code = render_command(options); });
+}
+
+void add_hard(CLI::App& app, HardOptions& options, int& code) {
+  CLI::App* hard = app.add_subcommand("hard", "hold hard cases to their limits; stability maps");
+  hard->add_option("name", options.names, "cases by name or file (default: all of the folder)");
+  hard->add_option("--cases", options.folder, "folder of hard cases (default: tests/hard)");
+  hard->add_flag("--long", options.long_form, "the long form of the cases");
+  hard->add_option("--map", options.maps, "key=lowest..highest: stability over one or two keys");
+  hard->add_option("--points", options.points, "values of each key of a map (default: 9)")
+      ->check(CLI::Range(2, 1000));
+  hard->add_option("--steps", options.steps, "steps of each run of a map (default: the case's)")
+      ->check(CLI::Range(1, 1000000000));
+  hard->add_option("--out", options.out, "the map's SVG (default: CASE_map.svg here)");
+  hard->add_option("--threads", options.threads, "number of threads (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  hard->callback([&] { code = hard_command(options); });
+}
+
+void add_study(CLI::App& app, StudyOptions& options, int& code) {
+  CLI::App* study = app.add_subcommand("study", "what accuracy costs: a case with many settings");
+  study->add_option("file", options.file, "a study file, or a case")->required();
+  study->add_option("--vary", options.vary,
+                    "key=value,value: let.dx=8mm,4mm or effects.xsph=on,off");
+  study->add_option("--set", options.set, "a key in all runs: key.path=value (may be repeated)");
+  study->add_option("--measure", options.measure,
+                    "KIND:PROBE[:COLUMN][,from=..,until=..,percent=..,shift=..,scale=..,name=..]");
+  study->add_option("--reference", options.reference,
+                    "finest (default), richardson, a number, or FILE.csv");
+  study->add_option("--budget", options.budget, "wall time to spend: 30min");
+  study->add_option("--refine", options.refine, "the key along which results converge");
+  study->add_option("--out", options.out, "folder of the results (default: beside the file)");
+  study->add_option("--repeats", options.repeats, "runs of each setting")
+      ->check(CLI::Range(1, 1000));
+  study->add_option("--parallel", options.parallel, "runs side by side (default: 1)")
+      ->check(CLI::Range(1, 1024));
+  study->add_option("--threads", options.threads, "threads of each run (default: cores / parallel)")
+      ->check(CLI::Range(1, 1024));
+  study->add_flag("--dry", options.dry, "check and print the runs, make none");
+  study->callback([&] { code = study_command(options); });
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app{"Gannet: an explicit hydrocode of finite elements and particles"};
   app.require_subcommand(1);
@@ -55,10 +115,16 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("gannet {}{}", version(), revision_text));
   RunOptions options;
   BenchOptions bench;
+  RenderOptions render;
+  HardOptions hard;
+  StudyOptions study;
   int code = 0;
   add_run(app, options, code);
   add_looks(app, options, code);
   add_bench(app, bench, code);
+  add_render(app, render, code);
+  add_hard(app, hard, code);
+  add_study(app, study, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -31,8 +31,9 @@ extern "C" void note_signal(int number) { signal_seen = number; }
 void fill_record(const RunOptions& options, const Simulation& simulation, RunRecord& record) {
   record.case_file = options.case_file;
   // What is written, and when, may change from one run to the next without another outcome.
-  record.case_hash =
-      fmt::format("{:016x}", fnv1a(resolved_text(simulation.source->root, {"title", "output"})));
+  record.case_hash = fmt::format(
+      "{:016x}",
+      fnv1a(resolved_text(simulation.source->root, {"title", "output", "study", "hard"})));
   record.version = version();
   record.revision = revision();
   record.instruction_set = name_of(isa());

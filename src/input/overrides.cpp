@@ -27,6 +27,12 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
+TextNode* find_at(TextNode& root, const std::vector<std::string>& path) {
+  TextNode* node = &root;
+  for (const std::string& name : path) node = find(*node, name);
+  return node;
+}
+
 /// The entry of that key, made where it is missing; nullptr and a mistake where it cannot be.
 TextNode* step_into(TextNode& map, const Key* key, const std::string& name, const Location& place,
                     Mistakes& mistakes) {
@@ -48,6 +54,18 @@ TextNode* step_into(TextNode& map, const Key* key, const std::string& name, cons
   added.where = added.key_where = place;
   map.items.push_back(added);
   return &map.items.back();
+}
+
+/// "effects.xsph=off" takes a map out of the case; "=on" leaves the one that is there, or makes one
+/// of defaults. Returns false where the key is no map or the value another one.
+bool switch_map(TextNode& root, const std::vector<std::string>& path, const Key* key,
+                const std::string& value) {
+  if (key == nullptr || key->kind != Kind::map || path.size() < 2) return false;
+  if (value == "on") return true;
+  if (value != "off") return false;
+  TextNode* parent = find_at(root, {path.begin(), path.end() - 1});
+  std::erase_if(parent->items, [&](const TextNode& item) { return item.key == path.back(); });
+  return true;
 }
 
 void apply(TextNode& root, const Key& language, const std::string& text, Mistakes& mistakes) {
@@ -74,6 +92,7 @@ void apply(TextNode& root, const Key& language, const std::string& text, Mistake
     key = key != nullptr ? find_key(*key, name) : nullptr;
     node = next;
   }
+  if (switch_map(root, path, key, text.substr(equals + 1))) return;
   TextNode value = read_yaml_piece(text.substr(equals + 1), place, mistakes);
   value.key = node->key;
   *node = value;

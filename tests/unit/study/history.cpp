@@ -1,0 +1,106 @@
+#include "study/study_history.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "support/temporary_folder.hpp"
+
+using namespace gannet;
+
+namespace {
+
+double measured(const std::string& kind, const TimeSeries& s, double percent = 50) {
+  return evaluate({.name = kind, .kind = kind, .percent = percent}, s);
+}
+
+std::string write(const TemporaryFolder& folder, const std::string& text) {
+  const std::string path = folder.path() + "/h.csv";
+  std::ofstream(path) << text;
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("history: columns are found by their last word, vectors by their length", "[study]") {
+  const TemporaryFolder folder;
+  const std::string file = write(folder,
+                                 "time [s],slam_force x [N],slam_force y [N],slam_force z [N]\n"
+                                 "0,3,0,4\n0.5,1,2,2\n");
+  CHECK(read_time_series(file, "z").y == std::vector<double>{4, 2});
+  CHECK(read_time_series(file, "slam_force x").y == std::vector<double>{3, 1});
+  const TimeSeries length = read_time_series(file, "");
+  CHECK(length.y == std::vector<double>{5, 3});
+  CHECK(length.t == std::vector<double>{0, 0.5});
+  CHECK(length.unit == "N");
+  CHECK_THROWS_WITH(read_time_series(file, "w"),
+                    Catch::Contains("no one column 'w'") && Catch::Contains("slam_force y"));
+  CHECK_THROWS_WITH(read_time_series(folder.path() + "/none.csv", ""),
+                    Catch::Contains("cannot be read"));
+}
+
+TEST_CASE("history: a last line that is still being written is left out", "[study]") {
+  const TemporaryFolder folder;
+  const TimeSeries s = read_time_series(write(folder, "time [s],a [m],b [m]\n0,1,2\n1,3"), "a");
+  CHECK(s.y == std::vector<double>{1});
+}
+
+TEST_CASE("measures: hand-made numbers", "[study]") {
+  // Unequal steps: areas 0.5 (0+2) 1 = 1, 0.5 (2-4) 2 = -2, 0.5 (-4+1) 1 = -1.5.
+  const TimeSeries s{{0, 1, 3, 4}, {0, 2, -4, 1}, "N"};
+  CHECK(measured("peak", s) == -4);
+  CHECK(measured("time_of_peak", s) == 3);
+  CHECK(measured("maximum", s) == 2);
+  CHECK(measured("minimum", s) == -4);
+  CHECK(measured("final", s) == 1);
+  CHECK(measured("impulse", s) == Approx(-2.5));
+  CHECK(measured("mean", s) == Approx(-2.5 / 4));
+  // Squares 0, 4, 16, 1: 2 + 20 + 8.5 = 30.5 over 4 s.
+  CHECK(measured("rms", s) == Approx(std::sqrt(30.5 / 4)));
+  // Sorted -4, 0, 1, 2: the median is 0.5, 75 % lies at index 2.25.
+  CHECK(measured("percentile", s, 50) == Approx(0.5));
+  CHECK(measured("percentile", s, 75) == Approx(1.25));
+  CHECK(measured("percentile", s, 100) == 2);
+  // t mean 2, y mean -0.25; sum dt dy = -2*0.25 - 1*2.25 + 1*-3.75 + 2*1.25 = -4, sum dt^2 = 10.
+  CHECK(measured("slope", s) == Approx(-0.4));
+}
+
+TEST_CASE("measures: a window leaves out what is outside, and must hold something", "[study]") {
+  const TimeSeries s{{0, 1, 3, 4}, {0, 2, -4, 1}, "N"};
+  StudyMeasure m{.name = "p", .kind = "peak", .from = 0.5, .until = 1};
+  CHECK(evaluate(m, s) == 2);
+  m.from = m.until = 2;
+  CHECK_THROWS_WITH(evaluate(m, s), "p: too few samples in its window");
+}
+
+TEST_CASE("distance: over common times, between samples linearly", "[study]") {
+  const TimeSeries a{{0, 2}, {0, 2}, ""};                // y = t
+  const TimeSeries b{{0, 1, 2, 3}, {1, 2, 3, 100}, ""};  // y = t + 1; the last is beyond a
+  const Distance d = distance_of(a, b, 0);
+  CHECK(d.rms == Approx(1));
+  CHECK(d.range == 99);
+  CHECK_THROWS(distance_of(a, {{5, 6}, {0, 0}, ""}, 0));
+}
+
+TEST_CASE("distance: the best shift in time is found", "[study]") {
+  TimeSeries a;
+  TimeSeries b;
+  for (int k = 0; k <= 400; ++k) {
+    const double t = 0.01 * k;
+    a.t.push_back(t);
+    b.t.push_back(t);
+    a.y.push_back(std::exp(-10 * std::pow(t - 2.137, 2)));
+    b.y.push_back(std::exp(-10 * std::pow(t - 2, 2)));
+  }
+  CHECK(distance_of(a, b, 0).rms > 0.1);
+  const Distance d = distance_of(a, b, 0.5);
+  CHECK(d.shift == Approx(0.137).margin(0.001));  // a tenth of the sampling
+  CHECK(d.rms < 0.001);  // what linear interpolation leaves: h^2/8 y'' = 1e-4/8 * 20
+}
+
+TEST_CASE("measures: units", "[study]") {
+  CHECK(unit_of({.kind = "impulse"}, "N") == "N s");
+  CHECK(unit_of({.kind = "slope"}, "m") == "m/s");
+  CHECK(unit_of({.kind = "time_of_peak"}, "Pa") == "s");
+  CHECK(unit_of({.kind = "peak"}, "Pa") == "Pa");
+}

@@ -1,0 +1,41 @@
+#include "study/svg_plot.hpp"
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "support/well_formed.hpp"
+
+using namespace gannet;
+
+TEST_CASE("pictures: well-formed XML whatever the names are", "[study]") {
+  Plot plot{"a < b & \"c\"",
+            "it's",
+            "x",
+            "y",
+            {{.label = "<&>", .x = {1, 2}, .y = {3, 4}, .tips = {"5 < 6", "&"}}}};
+  const std::string svg = log_plot(plot);
+  CHECK(why_not_well_formed(svg) == "");
+  CHECK(svg.find("<&>") == std::string::npos);
+  CHECK(why_not_well_formed(bar_plot("t & u", {"a", "b"}, {{"<r>", {0.1, -0.2}}})) == "");
+}
+
+TEST_CASE("pictures: the check of well-formedness finds what is wrong", "[study]") {
+  CHECK(why_not_well_formed("<a><b></a></b>") != "");
+  CHECK(why_not_well_formed("<a>&</a>") != "");
+  CHECK(why_not_well_formed("<a>") != "");
+  CHECK(why_not_well_formed("<a b=\"1\"/>") == "");
+}
+
+TEST_CASE("pictures: points that logarithms cannot show are left out", "[study]") {
+  Plot plot{"t", "", "x", "y", {{.x = {0, -1, 1, 10}, .y = {1, 1, 1, 2}}}};
+  const std::string svg = log_plot(plot);
+  std::size_t circles = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+       at = svg.find("<circle", at + 1)) {
+    ++circles;
+  }
+  CHECK(circles == 2);
+  CHECK(svg.find("nan") == std::string::npos);
+  plot.series[0].y = {0, 0, 0, 0};
+  CHECK(log_plot(plot).find("There is nothing to show") != std::string::npos);
+}

@@ -1,0 +1,124 @@
+// A whole study of a plate, made by the program itself: seconds.
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/temporary_folder.hpp"
+#include "support/well_formed.hpp"
+
+using namespace gannet;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const plate = R"(gannet: 1
+title: Small plate & a "name"
+materials: {steel: {card: steel}}
+parts:
+  plate:
+    shell: {material: steel, thickness: 10 mm, points: 3}
+    shape: {plate: {size: [1 m, 1 m], elements: [4, 4]}}
+boundaries: {clamp: {nodes: {edge_of: plate}, fix: [x, y, z, rx, ry, rz]}}
+loads: {step: {pressure: {on: plate, value: 1 kPa}}}
+probes: {centre: {displacement: {node: {nearest: [0, 0, 0], of: plate}}}}
+output: {until: 4 ms, history: every 50 us}
+)";
+
+struct Answer {
+  int code = -1;
+  std::string text;
+};
+
+Answer study(const std::string& folder, const std::string& more) {
+  const std::string log = folder + "/log.txt";
+  const std::string command = std::string(GANNET_PROGRAM) + " study " + folder + "/case.yaml " +
+                              "--vary 'parts.plate.shape.plate.elements=[4, 4],[8, 8],[16, 16]' " +
+                              "--measure peak:centre:z --measure distance:centre:z --out " +
+                              folder + "/s " + more + " > " + log + " 2>&1";
+  Answer answer;
+  answer.code = WEXITSTATUS(std::system(command.c_str()));
+  std::ifstream stream(log);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  answer.text = text.str();
+  return answer;
+}
+
+nlohmann::json results(const std::string& folder) {
+  std::ifstream stream(folder + "/s/study.json");
+  return nlohmann::json::parse(stream);
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("study: three plates give errors that shrink, and all files", "[study]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/case.yaml") << plate;
+  const Answer first = study(folder.path(), "--threads 1");
+  INFO(first.text);
+  REQUIRE(first.code == 0);
+  const nlohmann::json json = results(folder.path());
+  REQUIRE(json["runs"].size() == 3);
+  for (const auto& run : json["runs"]) {
+    CHECK(run["state"] == "done");
+    CHECK(run["cpu"].get<double>() > 0);
+    CHECK(run["wall"].get<double>() > 0);
+    CHECK(run["steps"].get<double>() > 10);
+  }
+  CHECK(json["refined"] == "parts.plate.shape.plate.elements");
+  CHECK(json["runs"][0]["elements"] == 16);
+  CHECK(json["runs"][2]["elements"] == 256);
+  const auto& distance = json["measures"][1]["values"];
+  CHECK(distance[0]["error"].get<double>() > distance[1]["error"].get<double>());
+  CHECK(distance[2]["error"].get<double>() == 0);
+  CHECK(json["measures"][0]["sentences"].size() == 3);
+
+  const std::string out = folder.path() + "/s";
+  CHECK(why_not_well_formed(text_of(out + "/convergence_peak_centre_z.svg")) == "");
+  CHECK(why_not_well_formed(text_of(out + "/work_peak_centre_z.svg")) == "");
+  CHECK(why_not_well_formed(text_of(out + "/study.html")) == "");
+  CHECK(text_of(out + "/study.csv").rfind("run,repeat,parts.plate.shape.plate.elements,state", 0) ==
+        0);
+
+  // A second call makes nothing again; a run that was cut short is made again, alone.
+  const Answer second = study(folder.path(), "--threads 1");
+  CHECK_THAT(second.text, Catch::Contains("done before"));
+  CHECK(results(folder.path())["runs"][2]["wall"] == json["runs"][2]["wall"]);
+  fs::remove(out + "/runs/" + json["runs"][1]["hash"].get<std::string>() + "/summary.json");
+  REQUIRE(study(folder.path(), "--threads 1").code == 0);
+  CHECK(results(folder.path())["runs"][1]["state"] == "done");
+  CHECK(results(folder.path())["runs"][0]["wall"] == json["runs"][0]["wall"]);
+}
+
+TEST_CASE("study: a budget that is too small is kept and said", "[study]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/case.yaml") << plate;
+  const Answer answer = study(folder.path(), "--threads 1 --budget '1 ms'");
+  INFO(answer.text);
+  REQUIRE(answer.code == 0);
+  const nlohmann::json json = results(folder.path());
+  CHECK(json["runs"][2]["state"] == "not run");
+  CHECK_THAT(answer.text, Catch::Contains("the budget of 0.001 s ended the study"));
+}
+
+TEST_CASE("study: mistakes of all settings are said before anything runs", "[study]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/case.yaml") << plate;
+  const Answer answer = study(folder.path(), "--vary parts.plate.shell.thicknes=1mm,2mm");
+  CHECK(answer.code == 2);
+  CHECK_THAT(answer.text, Catch::Contains("thicknes"));
+  CHECK_FALSE(fs::exists(folder.path() + "/s"));
+}
