@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "app/simulation.hpp"
+#include "scene/part_nodes.hpp"
 #include "time/step.hpp"
 
 namespace gannet {
@@ -14,14 +15,7 @@ template <class F>
 void for_nodes_of(const Scene& scene, const std::string& name, F&& f) {
   const int number = scene.part_number(name);
   if (number < 0) throw std::invalid_argument("no part is called '" + name + "'");
-  const Part& part = scene.parts[static_cast<std::size_t>(number)];
-  if (!part.is_particles()) {
-    for (Index i = part.nodes.begin; i < part.nodes.end; ++i) f(i);
-    return;
-  }
-  for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
-    if (scene.particle_part[i - scene.particles.begin] == number) f(i);
-  }
+  for_nodes_of_part(scene, number, f);
 }
 
 }  // namespace

@@ -34,6 +34,8 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
 void add_looks(CLI::App& app, RunOptions& options, int& code) {
   CLI::App* check = app.add_subcommand("check", "read and check a case; run nothing");
   add_case(*check, options);
+  check->add_option("--threads", options.threads, "threads of the run (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   check->callback([&] { code = check_command(options); });
   CLI::App* explain = app.add_subcommand("explain", "print the plan of a case, with reasons");
   add_case(*explain, options);

@@ -1,0 +1,22 @@
+// The nodes of a part, whatever order its particles are in.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// Calls f(node) for the nodes or particles of a part, in the order of the node table.
+/// number: of the part in scene.parts.
+template <class F>
+void for_nodes_of_part(const Scene& scene, int number, F&& f) {
+  const Part& part = scene.parts[static_cast<std::size_t>(number)];
+  if (!part.is_particles()) {
+    for (Index i = part.nodes.begin; i < part.nodes.end; ++i) f(i);
+    return;
+  }
+  for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
+    if (scene.particle_part[i - scene.particles.begin] == number) f(i);
+  }
+}
+
+}  // namespace gannet
