@@ -45,10 +45,9 @@ void print_parts(const Scene& scene) {
   for (std::size_t k = 0; k < scene.parts.size(); ++k) {
     const Part& part = scene.parts[k];
     const Body b = body_of(scene, static_cast<int>(k));
-    const std::string count =
-        part.is_particles()
-            ? fmt::format("{} particles", part.nodes.size())
-            : fmt::format("{} nodes, {} elements", part.nodes.size(), part.n_cells());
+    const std::string count = part.is_particles() ? fmt::format("{} particles", part.nodes.size())
+                                                  : fmt::format("{} nodes, {} elements",
+                                                                part.nodes.size(), part.n_cells());
     fmt::print("part {}: {}, mass {:.6g} kg, centre of gravity {}, from {} to {} m\n", part.name,
                count, b.mass, text_of(b.centre), text_of(b.lowest), text_of(b.highest));
   }
