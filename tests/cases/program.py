@@ -1,0 +1,106 @@
+"""What scripts rely on: exit codes, the output folder, summary.json.  program.py GANNET"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+GANNET = sys.argv.pop(1) if len(sys.argv) > 1 else "gannet"
+PLATE = ["run", "cases/plate_step_pressure/case.yaml",
+         "--set", "parts.plate.shape.plate.elements=[8, 8]", "--threads", "1"]
+
+
+def gannet(*words):
+    return subprocess.run([GANNET, *words], capture_output=True, text=True)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = pathlib.Path(self.folder.name) / "out"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def summary(self):
+        return json.loads((self.out / "summary.json").read_text())
+
+    def test_a_run_completes_and_says_all_that_scripts_rely_on(self):
+        run = gannet(*PLATE, "--until", "2 ms", "--out", str(self.out))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        summary = self.summary()
+        for key in ["status", "exit_reason", "steps", "time", "wall_time", "threads",
+                    "energy_error", "mass", "momentum", "peak_memory_bytes",
+                    "particle_steps_per_second", "element_steps_per_second", "operations",
+                    "version"]:
+            self.assertIn(key, summary)
+        self.assertEqual(summary["status"], "completed")
+        self.assertAlmostEqual(summary["mass"], 78.0, places=9)  # 1 m x 1 m x 10 mm of steel
+        for operation in summary["operations"]:
+            self.assertLessEqual({"name", "seconds", "share"}, set(operation))
+        self.assertTrue((self.out / "history" / "energy.csv").read_text().startswith("time [s],"))
+        self.assertTrue((self.out / "history" / "centre.csv").exists())
+
+    def test_results_are_not_overwritten_without_force(self):
+        first = [*PLATE, "--until", "0.1 ms", "--out", str(self.out)]
+        self.assertEqual(gannet(*first).returncode, 0)
+        before = (self.out / "history" / "energy.csv").read_bytes()
+        again = gannet(*first)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("--force", again.stderr)
+        self.assertEqual((self.out / "history" / "energy.csv").read_bytes(), before)
+        self.assertEqual(gannet(*first, "--force").returncode, 0)
+
+    def test_a_run_that_goes_wrong_ends_with_3_and_says_why(self):
+        run = gannet(*PLATE, "--set", "effects.time_step.scale=3", "--out", str(self.out))
+        self.assertEqual(run.returncode, 3)
+        for word in ["where:", "why:", "try:", "last good output"]:
+            self.assertIn(word, run.stderr)
+        self.assertEqual(self.summary()["status"], "failed")
+
+    def test_bad_input_ends_with_2_and_writes_nothing(self):
+        run = gannet(*PLATE, "--set", "parts.plate.shell.thickness=-1 mm", "--out", str(self.out))
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("parts.plate.shell.thickness", run.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_a_signal_leaves_a_checkpoint_that_goes_on(self):
+        words = ["run", "cases/dam_break_2d/case.yaml", "--threads", "1", "--out", str(self.out)]
+        process = subprocess.Popen([GANNET, *words], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.time() + 60
+        while not (self.out / "history" / "energy.csv").exists() and time.time() < deadline:
+            time.sleep(0.02)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        text = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, text)
+        stopped = self.summary()
+        self.assertEqual(stopped["status"], "stopped")
+        checkpoints = sorted(self.out.glob("*checkpoint*"))
+        self.assertTrue(checkpoints)
+        until = str(stopped["time"] + 2e-3)
+        resumed = gannet(*words, "--restart", str(checkpoints[-1]), "--until", until)
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assertEqual(self.summary()["status"], "completed")
+        self.assertGreater(self.summary()["steps"], stopped["steps"])
+
+    def test_version_check_and_explain(self):
+        self.assertRegex(gannet("--version").stdout, r"^gannet \d+\.\d+\.\d+")
+        check = gannet("check", "cases/plate_step_pressure/case.yaml", "--threads", "1")
+        self.assertEqual(check.returncode, 0)
+        self.assertIn("centre of gravity", check.stdout)
+        explain = gannet("explain", "cases/plate_step_pressure/case.yaml")
+        self.assertIn("asked for at cases/plate_step_pressure/case.yaml:", explain.stdout)
+        # What the case does not ask for is not there.
+        for word in ["particle", "XSPH", "viscosity", "contact"]:
+            self.assertNotIn(word, explain.stdout.split("defaults taken")[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
