@@ -29,6 +29,11 @@ function(gannet_room NAME)
       target_link_libraries(${objects} PRIVATE gannet_flags)
       target_compile_definitions(${objects} PRIVATE GANNET_ISA_NS=${set})
       target_compile_options(${objects} PRIVATE -O3)
+      if(GANNET_SANITIZE)
+        # Instrumented, the two halves of an AVX2 vector may be contracted to fused multiply-adds
+        # differently, so that the bits of an element would depend on the lane it is in.
+        target_compile_options(${objects} PRIVATE -ffp-contract=off)
+      endif()
       if(set STREQUAL avx512)
         # g++ 12 warns of its own intrinsics (their "undefined" operand) once they are inlined.
         target_compile_options(${objects} PRIVATE -mavx512f -mavx512dq -mavx512vl -mavx512bw
