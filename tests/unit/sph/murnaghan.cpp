@@ -61,3 +61,38 @@ TEST_CASE("murnaghan: internal energy is the work of compression, de/drho = p/rh
   // By hand, gamma = 7, p0 = 0, s = 2: (B/rho0) (63/6 - 1/2) = 10 B/rho0
   CHECK(internal_energy(water(), 2000) == Approx(10 * 514.2857142857143).epsilon(1e-14));
 }
+
+TEST_CASE("equation of state: linear is gamma = 1", "[material]") {
+  Murnaghan eos{.rho0 = 1000, .gamma = 1, .p0 = 5, .B = stiffness(1000, 1, 30)};
+  CHECK(pressure(eos, 1010) == Approx(5 + 900 * 10));
+  CHECK(density(eos, 5 + 900 * 10) == Approx(1010));
+  CHECK(sound_speed(eos, 990) == Approx(30));
+}
+
+TEST_CASE("equation of state: below the pressure of cavitation it stays there", "[material]") {
+  Murnaghan eos{.rho0 = 1000, .gamma = 7, .p0 = 0, .B = stiffness(1000, 7, 50)};
+  const double uncut = internal_energy(eos, 990);
+  cut_pressure(eos, -1000);
+  CHECK(eos.rho_min == Approx(1000 * std::pow(1 - 1000 / eos.B, 1.0 / 7)));
+  CHECK(pressure(eos, 990) == -1000);
+  CHECK(pressure(eos, 1001) > 0);
+  // The work of expansion from rho_min to 990 against the constant pressure: p dV.
+  const double step = internal_energy(eos, 990) - internal_energy(eos, eos.rho_min);
+  CHECK(step == Approx(-1000 * (1 / eos.rho_min - 1 / 990.0)));
+  CHECK(internal_energy(eos, 990) < uncut);
+}
+
+TEST_CASE("equation of state: enthalpy is the integral of dp/rho", "[material]") {
+  for (const double gamma : {1.0, 1.4, 7.0}) {
+    const Murnaghan eos{.rho0 = 1000, .gamma = gamma, .p0 = 0, .B = stiffness(1000, gamma, 50)};
+    const int n = 1000;
+    double sum = 0;
+    for (int k = 0; k < n; ++k) {
+      const double low = 1000 + 30.0 * k / n;
+      const double high = 1000 + 30.0 * (k + 1) / n;
+      sum += (pressure(eos, high) - pressure(eos, low)) / (0.5 * (low + high));
+    }
+    CHECK(enthalpy(eos, 1030) == Approx(sum).epsilon(1e-6));
+    CHECK(enthalpy(eos, 1000) == 0);
+  }
+}
