@@ -65,21 +65,27 @@ BenchResult bench_sph_step(int n) {
 enum class Pass { rates, force, fused };
 
 /// One pair pass over the lists of a cube, h/dx = 1.3.
-BenchResult bench_sph_pass(int n, Pass pass) {
+BenchResult bench_sph_pass(int n, Pass pass, bool single = false) {
   const auto simulation = cube_of_water(n);
   advance(simulation->models);
   Scene& scene = simulation->scene;
   const SphState& sph = scene.store.get<SphState>();
   const Index first = scene.particles.begin;
-  const ParticleView view{&scene.nodes.x[first], &scene.nodes.v[first], sph.rho.data(),
-                          sph.p.data(), sph.list.n_sources};
-  Array<PackedParticle> packed;
-  pack_particles(view, packed);
+  ParticleView view;
+  view.x = &scene.nodes.x[first];
+  view.v = &scene.nodes.v[first];
+  view.rho = sph.rho.data();
+  view.p = sph.p.data();
+  view.n_sources = sph.list.n_sources;
+  Packed packed;
+  packed.single = single;
+  pack_particles(view, sph.kernel.reach(), packed);
   const auto count = static_cast<std::size_t>(scene.particles.size());
   Array<double> drho_dt(count);
   Array<Line> f(count);
   Array<Line> f_viscous(count);
-  const PairParameters parameters{3, sph.h, sph.m, sph.c0, 0.05, 0.1, 0};
+  const PairParameters parameters{
+      .dimension = 3, .h = sph.h, .m = sph.m, .c0 = sph.c0, .alpha = 0.05, .beta = 0.1};
   const RatesOut rates{drho_dt.data(), nullptr};
   const ForceOut force{f.data(), f_viscous.data()};
   const double seconds = median_seconds(9, [&] {
@@ -89,7 +95,7 @@ BenchResult bench_sph_pass(int n, Pass pass) {
   });
   BenchResult r = particles_result(*simulation, seconds, 1);
   r.bytes_per_item =
-      sizeof(PackedParticle) + sizeof(double) + 2 * sizeof(Line) +
+      (single ? sizeof(PackedSingle) : sizeof(PackedParticle)) + sizeof(double) + 2 * sizeof(Line) +
       sizeof(Index) * static_cast<double>(sph.list.offset.back()) / static_cast<double>(count);
   return r;
 }
@@ -131,6 +137,7 @@ std::vector<Benchmark> all_benchmarks() {
           {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
           {"sph.step.100k", [] { return bench_sph_step(46); }},
           {"sph.pass.fused.1M", [] { return bench_sph_pass(100, Pass::fused); }},
+          {"sph.pass.fused.1M.single", [] { return bench_sph_pass(100, Pass::fused, true); }},
           {"sph.step.1M", [] { return bench_sph_step(100); }}};
 }
 

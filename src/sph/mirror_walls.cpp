@@ -13,7 +13,6 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "kernel/cubic_spline.hpp"
 #include "sph/effects.hpp"
 #include "sph/sph_state.hpp"
 
@@ -50,7 +49,7 @@ void make_state(const Keys&, Scene& scene) {
 /// pressure terms of the particle pair pass.
 double force_of_image(const SphState& sph, const Scene& scene, Index image, int d) {
   const Line* x = scene.nodes.x.data() + scene.particles.begin;
-  const double reach = cubic_spline::support * sph.h;
+  const double reach = sph.kernel.reach();
   const auto p_rho2 = [&](Index k) { return sph.p[k] / (sph.rho[k] * sph.rho[k]); };
   const double own = p_rho2(image);
   double f = 0;
@@ -58,7 +57,7 @@ double force_of_image(const SphState& sph, const Scene& scene, Index image, int 
     const Vec3 r_ij = xyz(x[k]) - xyz(x[image]);
     const double r2 = r_ij.squaredNorm();
     if (r2 >= reach * reach) continue;
-    const double F = cubic_spline::F(scene.dimension, std::sqrt(r2), sph.h);
+    const double F = sph.kernel.F(std::sqrt(r2));
     f -= sph.m * sph.m * (p_rho2(k) + own) * F * r_ij[d];
   }
   return f;

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
-#include "kernel/cubic_spline.hpp"
 #include "search/spatial_sort.hpp"
 
 namespace gannet {
 
 namespace {
 
-double reach(const SphState& sph) { return cubic_spline::support * sph.h + sph.skin; }
+double reach(const SphState& sph) { return sph.kernel.reach() + sph.skin; }
 
 /// Images and list for the positions x_build of the owned particles; everything
 /// that is a function of x_build, so that a restart finds the same.
@@ -29,7 +28,7 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   }
   copy_out(halo, scene);
   build_cluster_list(sph.x_build, n, reach(sph), sph.list);
-  start_ageing(sph.x_build, cubic_spline::support * sph.h, sph.skin, sph.dx, sph.age);
+  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age);
   ++sph.n_builds;
 }
 
@@ -70,7 +69,7 @@ Vec3 motion_of(const SphState& sph, const Scene& scene, Index k, double dt_half)
 /// relative to itself, so that the age of the lists does not tell.
 bool image_is_missing(const SphState& sph, const Scene& scene, double dt_half) {
   const Halo& halo = sph.halo;
-  const double near = cubic_spline::support * sph.h;
+  const double near = sph.kernel.reach();
   const auto came_near = [&](const Vec3& from, const Vec3& to) {
     for (Eigen::Index d = 0; d < 3; ++d) {
       const auto at = static_cast<std::size_t>(d);

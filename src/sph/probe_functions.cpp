@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "kernel/cubic_spline.hpp"
 
 namespace gannet {
 
@@ -22,7 +21,7 @@ struct GaugeSums {
 
 GaugeSums sums_at(const SphState& sph, const Scene& scene, const Vec3& x) {
   const Line* nodes = scene.nodes.x.data() + scene.particles.begin;
-  const double reach = cubic_spline::support * sph.h;
+  const double reach = sph.kernel.reach();
   return parallel_reduce(
       scene.particles.size() + scene.nodes.n_ghosts, node_chunk, GaugeSums{},
       [&](Index begin, Index end) {
@@ -30,7 +29,7 @@ GaugeSums sums_at(const SphState& sph, const Scene& scene, const Vec3& x) {
         for (Index k = begin; k < end; ++k) {
           const double r = (xyz(nodes[k]) - x).norm();
           if (r >= reach) continue;
-          const double VW = sph.m / sph.rho[k] * cubic_spline::W(scene.dimension, r, sph.h);
+          const double VW = sph.m / sph.rho[k] * sph.kernel.W(r);
           sums.volume += VW;
           sums.pressure += VW * sph.p[k];
         }
@@ -51,7 +50,7 @@ struct OnColumn {
 std::vector<OnColumn> particles_on_column(const SphState& sph, const Scene& scene, const Vec3& foot,
                                           const Vec3& up) {
   const Line* nodes = scene.nodes.x.data() + scene.particles.begin;
-  const double reach = cubic_spline::support * sph.h;
+  const double reach = sph.kernel.reach();
   std::vector<OnColumn> found;
   for (Index k = 0; k < scene.particles.size() + scene.nodes.n_ghosts; ++k) {
     const Vec3 d = xyz(nodes[k]) - foot;
@@ -80,14 +79,14 @@ double surface_height_on(const SphState& sph, const Scene& scene, const Vec3& fo
                          const Vec3& up) {
   const std::vector<OnColumn> column = particles_on_column(sph, scene, foot, up);
   if (column.empty()) return nowhere;
-  const double reach = cubic_spline::support * sph.h;
+  const double reach = sph.kernel.reach();
   const auto fraction = [&](double s) {
     double sum = 0;
     for (const OnColumn& q : column) {
       if (q.s > s + reach) continue;
       if (q.s < s - reach) break;
       const double r = std::sqrt((q.s - s) * (q.s - s) + q.off2);
-      sum += q.V * cubic_spline::W(scene.dimension, r, sph.h);
+      sum += q.V * sph.kernel.W(r);
     }
     return sum;
   };

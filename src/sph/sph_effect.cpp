@@ -11,6 +11,7 @@
 #include "scene/particle_material.hpp"
 #include "sph/effects.hpp"
 #include "sph/neighbour_lists.hpp"
+#include "sph/sph_operations.hpp"
 #include "sph/sph_state.hpp"
 
 namespace gannet {
@@ -33,11 +34,15 @@ Schema schema() {
                .kind = Kind::choice,
                .text = "smoothing kernel",
                .fallback = "cubic_spline",
-               .choices = {"cubic_spline"}},
+               .choices = {"cubic_spline", "wendland_c2", "wendland_c4", "quintic_spline"}},
               {.name = "smoothing_ratio",
-               .text = "smoothing length h over spacing",
-               .fallback = "1.3",
-               .limits = between(1, 3)},
+               .text = "smoothing length h over spacing (1.3, 1.5, 1.7, 1 for these kernels)",
+               .limits = between(0.9, 3)},
+              {.name = "precision",
+               .kind = Kind::choice,
+               .text = "arithmetic of pairs; the state is in double precision",
+               .fallback = "double",
+               .choices = {"double", "single"}},
               {.name = "cfl",
                .text = "time step times speed of sound over h, before viscosity",
                .fallback = "0.7",
@@ -78,14 +83,22 @@ std::vector<Keys> sph_parts(const Keys& root) {
 /// Notes where a part asks for another particle size than the first one.
 void require_same(const std::vector<Keys>& parts) {
   for (const char* key : {"spacing", "smoothing_ratio", "cfl", "skin"}) {
-    const double first = parts.front().map("sph").number(key);
+    const double first = parts.front().map("sph").number_or(key, 0);
     for (const Keys& part : parts) {
-      const double here = part.map("sph").number(key);
+      const double here = part.map("sph").number_or(key, 0);
       if (here == first) continue;
       part.map("sph").complain(
           key, fmt::format("{:g} differs from {:g} of '{}': particles of different size in one "
                            "pool are not built yet",
                            here, first, parts.front().name()));
+    }
+  }
+  for (const char* key : {"kernel", "precision"}) {
+    const std::string first = parts.front().map("sph").word(key);
+    for (const Keys& part : parts) {
+      if (part.map("sph").word(key) == first) continue;
+      part.map("sph").complain(key, fmt::format("differs from {} of '{}': one pool has one {}",
+                                                first, parts.front().name(), key));
     }
   }
 }
@@ -201,8 +214,15 @@ void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& 
     sph.eos[number] = eos;
     sph.parts.push_back(number);
     sph.c0 = std::max(sph.c0, c0);
+    sph.rho0 = std::max(sph.rho0, eos.rho0);
     materials[number] = {sph.dx, eos.rho0, c0};
   }
+}
+
+KernelType kernel_named(const std::string& name) {
+  if (name == "wendland_c2") return KernelType::wendland_c2;
+  if (name == "wendland_c4") return KernelType::wendland_c4;
+  return name == "quintic_spline" ? KernelType::quintic_spline : KernelType::cubic_spline;
 }
 
 void make_state(const Keys& root, Scene& scene) {
@@ -211,11 +231,14 @@ void make_state(const Keys& root, Scene& scene) {
   auto& sph = scene.store.get<SphState>();
   const Keys first = parts.front().map("sph");
   sph.dx = first.number("spacing");
-  const double ratio = first.number("smoothing_ratio");
+  const KernelType kernel = kernel_named(first.word("kernel"));
+  const double ratio = first.number_or("smoothing_ratio", usual_smoothing_ratio(kernel));
   sph.h = ratio * sph.dx;
+  sph.kernel = {kernel, scene.dimension, sph.h};
+  sph.packed.single = first.word("precision") == "single";
   sph.skin = first.number("skin") * sph.dx;
   sph.cfl = first.number("cfl");
-  sph.limits = lattice_limits(scene.dimension, ratio);
+  sph.limits = lattice_limits(kernel, scene.dimension, ratio);
   read_materials(root, parts, sph, scene);
   sph.m = particle_mass(parts, scene, sph);
   const auto n = static_cast<std::size_t>(scene.particles.size());
@@ -232,129 +255,11 @@ void make_state(const Keys& root, Scene& scene) {
   scene.after_restart.emplace_back([&sph, &scene] { restore_lists(sph, scene); });
 }
 
-ParticleView view_of(const SphState& sph, const Scene& scene) {
-  const Index first = scene.particles.begin;
-  return {scene.nodes.x.data() + first, scene.nodes.v.data() + first, sph.rho.data(), sph.p.data(),
-          scene.particles.size() + scene.nodes.n_ghosts};
-}
-
-PairParameters parameters_of(const SphState& sph, const Scene& scene) {
-  return {scene.dimension,  sph.h, sph.m, sph.c0, sph.terms.alpha, sph.terms.beta,
-          sph.terms.epsilon};
-}
-
-void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
-  plan.add({.name = "pack particles for the force",
-            .reason = "rule: a pair pass reads one 64-byte line a particle",
-            .stage = Stage::force,
-            .reads = {"x", "v", "rho", "p"},
-            .run = [&](const Step&) { pack_particles(view_of(sph, scene), sph.packed); }});
-  const bool viscous = sph.terms.viscous();
-  std::vector<std::string> writes{"f"};
-  if (viscous) writes.emplace_back("f_viscous");
-  plan.add({.name = viscous ? "particle pair pass: pressure and viscosity"
-                            : "particle pair pass: pressure",
-            .reason = reason,
-            .stage = Stage::force,
-            .reads = {"x", "v", "rho", "p"},
-            .writes = writes,
-            .run =
-                [&, viscous](const Step&) {
-                  Line* f = scene.nodes.f.data() + scene.particles.begin;
-                  pair_force(sph.list, sph.packed, parameters_of(sph, scene),
-                             {f, viscous ? sph.f_viscous.data() : nullptr});
-                },
-            .stable_dt =
-                [&] {
-                  sph.vote = smallest_stable_step(sph, scene);
-                  return sph.vote.dt;
-                },
-            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); }});
-}
-
-void add_lists(SphState& sph, Scene& scene, Plan& plan) {
-  plan.add({.name = "neighbour lists",
-            .reason = fmt::format("rule: made anew when neighbours may have moved by the skin of "
-                                  "{:.3g} m, relative to each other",
-                                  sph.skin),
-            .stage = Stage::half_drift,
-            .reads = {"x", "v"},
-            .writes = {"x_build", "order of particles"},
-            .owns = {"x_build"},
-            .run = [&](const Step& step) {
-              if (lists_are_stale(sph, scene, 0.5 * step.dt)) rebuild_lists(sph, scene);
-            }});
-}
-
-void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
-  plan.add({.name = "pack particles for the rates",
-            .reason = "rule: a pair pass reads one 64-byte line a particle",
-            .stage = Stage::rates,
-            .reads = {"x", "v", "rho"},
-            .run = [&](const Step&) { pack_particles(view_of(sph, scene), sph.packed); }});
-  const bool xsph = sph.terms.epsilon > 0;
-  std::vector<std::string> writes{"drho_dt"};
-  if (xsph) writes.emplace_back("X");
-  plan.add({.name = xsph ? "particle pair pass: density rate and XSPH"
-                         : "particle pair pass: density rate",
-            .reason = reason,
-            .stage = Stage::rates,
-            .reads = {"x", "v", "rho"},
-            .writes = writes,
-            .owns = {"drho_dt"},
-            .run = [&, xsph](const Step&) {
-              pair_rates(sph.list, sph.packed, parameters_of(sph, scene),
-                         {sph.drho_dt.data(), xsph ? sph.X.data() : nullptr});
-            }});
-  plan.add({.name = "density and pressure",
-            .reason = reason,
-            .stage = Stage::rates,
-            .reads = {"drho_dt"},
-            .writes = {"rho", "p"},
-            .owns = {"rho", "p"},
-            .run = [&](const Step& step) { advance_density(sph, scene, step.dt); }});
-}
-
-void add_look(SphState& sph, Scene& scene, Models& models, const std::string& reason) {
-  Plan& plan = models.of_node(scene.particles.begin).plan;
-  std::vector<LedgerEntry*> entries;
-  for (const int part : sph.parts) {
-    entries.push_back(&models.ledger.entry("internal", scene.parts[part].name));
-  }
-  plan.add({.name = "internal energy of particles",
-            .reason = reason,
-            .stage = Stage::look,
-            .reads = {"rho"},
-            .run = [&, entries](const Step&) {
-              for (std::size_t k = 0; k < entries.size(); ++k) {
-                entries[k]->value = internal_energy_of_part(sph, scene, sph.parts[k]);
-              }
-            }});
-  plan.add({.name = "check of the speed of sound",
-            .reason = "rule: every 100 steps, until it warns",
-            .stage = Stage::look,
-            .reads = {"v", "rho"},
-            .run = [&](const Step& step) {
-              if (sph.warned || step.n % 100 != 0) return;
-              const std::string warning = sound_speed_warning(sph, scene, step.dt);
-              if (warning.empty()) return;
-              scene.warnings.push_back(fmt::format("t = {:.6g} s: {}", step.t, warning));
-              sph.warned = true;
-            }});
-}
-
 void add_operations(const Keys& root, Scene& scene, Models& models) {
   const std::vector<Keys> parts = sph_parts(root);
   if (parts.empty() || scene.particles.empty()) return;
-  auto& sph = scene.store.get<SphState>();
-  const std::string reason = asked_for_at(parts.front().where("sph"));
-  Plan& plan = models.of_node(scene.particles.begin).plan;
-  // The first force pass needs lists: all states are there by now, so sorting permutes them all.
-  rebuild_lists(sph, scene);
-  add_force(sph, scene, plan, reason);
-  add_look(sph, scene, models, reason);
-  add_lists(sph, scene, plan);
-  add_rates(sph, scene, plan, reason);
+  add_particle_operations(scene.store.get<SphState>(), scene, models,
+                          asked_for_at(parts.front().where("sph")));
 }
 
 }  // namespace

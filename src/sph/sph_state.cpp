@@ -81,7 +81,9 @@ ParticleVote smallest_stable_step(const SphState& sph, const Scene& scene) {
   }
   const double linear = sph.terms.alpha * sph.c0;
   const double quadratic = 2 * sph.terms.beta * mu.value;
-  return {stable_step(sph.limits, sph.cfl, sph.h, std::sqrt(c2.value), linear + quadratic),
+  const Damping damping{linear + quadratic, sph.terms.mu / sph.rho0, sph.terms.delta * sph.c0};
+  return {stable_step(sph.limits, sph.cfl, sph.h, std::sqrt(c2.value),
+                      largest_damping(sph.limits, sph.h, damping)),
           quadratic > linear ? mu.particle : c2.particle};
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/array.hpp"
 #include "base/parallel.hpp"
+#include "kernel/smoothing_kernel.hpp"
 #include "material/murnaghan.hpp"
 #include "scene/scene.hpp"
 #include "search/cluster_list.hpp"
@@ -19,9 +20,14 @@ namespace gannet {
 
 /// What effects ask of the pair passes, in their state() call; 0 is off.
 struct PairTerms {
-  double alpha = 0;    ///< linear artificial viscosity [-]
-  double beta = 0;     ///< quadratic artificial viscosity [-]
-  double epsilon = 0;  ///< XSPH [-]
+  double alpha = 0;            ///< linear artificial viscosity [-]
+  double beta = 0;             ///< quadratic artificial viscosity [-]
+  double epsilon = 0;          ///< XSPH [-]
+  double delta = 0;            ///< density diffusion [-]
+  double mu = 0;               ///< laminar viscosity [Pa s]
+  double tensile = 0;          ///< repulsion under tension [-]
+  bool corrected = false;      ///< corrected gradients (CSPM)
+  bool concentration = false;  ///< gradient of the concentration and div r
   [[nodiscard]] bool viscous() const { return alpha > 0 || beta > 0; }
 };
 
@@ -37,10 +43,12 @@ struct ParticleVote {
 struct SphState {
   double dx = 0;               ///< spacing at the start [m]
   double h = 0;                ///< smoothing length [m]
+  SmoothingKernel kernel;      ///< of that smoothing length
   double m = 0;                ///< mass of a particle [kg]; in 2D per metre of thickness
   double skin = 0;             ///< how much further than 2 h the lists reach [m]
   double cfl = 0;              ///< time step over (h/c), before viscosity [-]
   double c0 = 0;               ///< largest speed of sound of the parts [m/s]
+  double rho0 = 0;             ///< largest reference density of the parts [kg/m^3]
   std::vector<Murnaghan> eos;  ///< one a part of the scene; unused where it has no particles
   std::vector<int> parts;      ///< numbers of the parts that are made of particles
 
@@ -50,14 +58,19 @@ struct SphState {
   Array<double> smoothing_length;  ///< h of each particle [m]
   Array<Line> x_build;             ///< positions when the lists were built [m]
   Array<Line> X;                   ///< XSPH velocity [m/s]; empty without XSPH
-  Array<Line> f_viscous;           ///< viscous force of the last force pass [N]; may be empty
+  /// Parts of the force of the last force pass [N], each empty where its term is absent.
+  Array<Line> f_viscous, f_laminar, f_tensile, f_correction;
+  /// Parts of the density rate of the last rates pass [kg/(m^3 s)], empty where absent.
+  Array<double> drho_diffusion, drho_correction;
+  Array<double> s;            ///< what density diffusion evens out [kg/m^3]; empty without it
+  Array<Line> concentration;  ///< its gradient [1/m], w: div r [-]; empty where nobody asks
 
   PairTerms terms;
   Halo halo;
   LatticeLimits limits;
   ClusterList list;
   ListAge age;
-  Array<PackedParticle> packed;
+  Packed packed;
   std::int64_t n_builds = 0;  ///< how often the lists were built in this run
   Array<double> scratch;      ///< one number a particle
   ParticleVote vote;          ///< of the last choice of the step
@@ -97,10 +110,10 @@ void advance_density(SphState& sph, const Scene& scene, double dt);
 double internal_energy_of_part(const SphState& sph, const Scene& scene, int part);
 
 /// The smallest stable step [s] of the particles with their present rho, p and drho_dt: that of
-/// stable_step() for the largest local speed of sound, c^2 = gamma (p - p0 + B)/rho, and, with
-/// quadratic viscosity, the largest |mu| = h max(drho_dt/rho, 0): the rate at which a particle is
-/// compressed along one direction, as the density rate measured it. Named is the particle of the
-/// speed of sound, or of |mu| where the quadratic viscosity is the larger one.
+/// stable_step() for the largest local speed of sound, c^2 = gamma (p - p0 + B)/rho, the damping of
+/// all terms, and, with quadratic viscosity, the largest |mu| = h max(drho_dt/rho, 0): the rate at
+/// which a particle is compressed along one direction, as the density rate measured it. Named is
+/// the particle of the speed of sound, or of |mu| where the quadratic viscosity is the larger one.
 ParticleVote smallest_stable_step(const SphState& sph, const Scene& scene);
 
 /// "pool: particle 1207 at (0.1, 0, -0.2) m"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/math.hpp"
-#include "kernel/cubic_spline.hpp"
 
 namespace gannet {
 
@@ -20,17 +19,17 @@ struct Neighbour {
   double F = 0;
 };
 
-std::vector<Neighbour> lattice_neighbours(int dimension, double ratio) {
-  const double reach = cubic_spline::support * ratio;
+std::vector<Neighbour> lattice_neighbours(const SmoothingKernel& kernel) {
+  const double reach = kernel.reach();
   const int n = static_cast<int>(reach);
-  const int n_z = dimension == 3 ? n : 0;
+  const int n_z = kernel.dimension == 3 ? n : 0;
   std::vector<Neighbour> neighbours;
   for (int k = -n_z; k <= n_z; ++k) {
     for (int j = -n; j <= n; ++j) {
       for (int i = -n; i <= n; ++i) {
         const Vec3 r(i, j, k);
         if (r.norm() >= reach || r.norm() == 0) continue;
-        neighbours.push_back({r, cubic_spline::F(dimension, r.norm(), ratio)});
+        neighbours.push_back({r, kernel.F(r.norm())});
       }
     }
   }
@@ -41,20 +40,22 @@ std::vector<Neighbour> lattice_neighbours(int dimension, double ratio) {
 LatticeLimits limits_of_wave(const std::vector<Neighbour>& neighbours, double h, const Vec3& k) {
   Vec3 gradient = Vec3::Zero();
   Mat3 damping = Mat3::Zero();
+  double spreading = 0;
   for (const Neighbour& n : neighbours) {
     const double phase = k.dot(n.r);
     gradient += n.F * std::sin(phase) * n.r;
     damping += std::abs(n.F) * (1 - std::cos(phase)) / (n.r.squaredNorm() + 0.01 * h * h) * n.r *
                n.r.transpose();
+    spreading += 2 * std::abs(n.F) * (1 - std::cos(phase));
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(damping, Eigen::EigenvaluesOnly);
-  return {h * gradient.norm(), h * h * modes.eigenvalues().maxCoeff()};
+  return {h * gradient.norm(), h * h * modes.eigenvalues().maxCoeff(), h * h * spreading};
 }
 
 }  // namespace
 
-LatticeLimits lattice_limits(int dimension, double ratio) {
-  const std::vector<Neighbour> neighbours = lattice_neighbours(dimension, ratio);
+LatticeLimits lattice_limits(KernelType kernel, int dimension, double ratio) {
+  const std::vector<Neighbour> neighbours = lattice_neighbours({kernel, dimension, ratio});
   std::vector<Vec3> directions{{1, 0, 0}, {1, 1, 0}};
   if (dimension == 3) directions.emplace_back(1, 1, 1);
   constexpr int n_waves = 200;
@@ -65,14 +66,20 @@ LatticeLimits lattice_limits(int dimension, double ratio) {
       const LatticeLimits one = limits_of_wave(neighbours, ratio, k);
       limits.sound = std::max(limits.sound, one.sound);
       limits.viscous = std::max(limits.viscous, one.viscous);
+      limits.laminar = std::max(limits.laminar, one.laminar);
     }
   }
   return limits;
 }
 
-double stable_step(const LatticeLimits& limits, double cfl, double h, double c, double a) {
-  const double xi = limits.viscous * a / (2 * limits.sound * c);
+double stable_step(const LatticeLimits& limits, double cfl, double h, double c, double lambda) {
+  const double xi = lambda * h / (2 * limits.sound * c);
   return cfl * h / c * (std::sqrt(1 + xi * xi) - xi);
+}
+
+double largest_damping(const LatticeLimits& limits, double h, const Damping& damping) {
+  return limits.viscous * damping.slope / h +
+         limits.laminar * (damping.nu / (h * h) + damping.diffusion / h);
 }
 
 }  // namespace gannet

@@ -91,9 +91,12 @@ void time_pair_passes(int n) {
       .dimension = 3, .h = 1.3, .m = 1000, .c0 = 30, .alpha = 0.05, .beta = 0.1, .epsilon = 0.5};
   ClusterList list;
   build_cluster_list(w.x, size, 2.6 + 0.26, list);
-  Array<PackedParticle> packed;
+  Packed packed;
+  Packed single;
+  single.single = true;
   const ParticleView view{w.x.data(), w.v.data(), w.rho.data(), w.p.data(), size};
-  pack_particles(view, packed);
+  pack_particles(view, 2.6, packed);
+  pack_particles(view, 2.6, single);
   const RatesOut rates{w.drho_dt.data(), nullptr};
   const RatesOut rates_xsph{w.drho_dt.data(), w.X.data()};
   const ForceOut force{w.f.data(), nullptr};
@@ -110,7 +113,21 @@ void time_pair_passes(int n) {
   report("force", time_of([&] { pair_force(list, packed, k, force); }));
   report("force with viscosity", time_of([&] { pair_force(list, packed, k, force_viscous); }));
   report("fused", time_of([&] { pair_fused(list, packed, k, rates, force_viscous); }));
-  report("pack", time_of([&] { pack_particles(view, packed); }));
+  report("rates, single", time_of([&] { pair_rates(list, single, k, rates); }));
+  report("rates with XSPH, single", time_of([&] { pair_rates(list, single, k, rates_xsph); }));
+  report("force, single", time_of([&] { pair_force(list, single, k, force); }));
+  report("force with viscosity, single",
+         time_of([&] { pair_force(list, single, k, force_viscous); }));
+  report("fused, single", time_of([&] { pair_fused(list, single, k, rates, force_viscous); }));
+  for (const auto& [name, type] : {std::pair{"Wendland C2", KernelType::wendland_c2},
+                                   std::pair{"Wendland C4", KernelType::wendland_c4}}) {
+    k.kernel = type;
+    report(fmt::format("rates, {}", name), time_of([&] { pair_rates(list, packed, k, rates); }));
+    report(fmt::format("force with viscosity, {}", name),
+           time_of([&] { pair_force(list, packed, k, force_viscous); }));
+  }
+  report("pack", time_of([&] { pack_particles(view, 2.6, packed); }));
+  report("pack, single", time_of([&] { pack_particles(view, 2.6, single); }));
   report("list build", time_of([&] { build_cluster_list(w.x, size, 2.6 + 0.26, list); }));
   report("order of sorted particles", time_of([&] { spatial_order(w.x, 1.0, order); }));
 }

@@ -27,7 +27,7 @@ inline std::vector<Isa> sets_to_test() {
 /// Particles with all that a pass reads, and the parameters of the pass.
 struct Fluid {
   Array<Line> x, v;
-  Array<double> rho, p;
+  Array<double> rho, p, s;
   Index n_targets = 0;  ///< the particles after these are ghosts
   PairParameters k;
 
@@ -39,59 +39,81 @@ struct Fluid {
     n_targets = static_cast<Index>(x.size());
   }
   [[nodiscard]] ParticleView view() const {
-    return {x.data(), v.data(), rho.data(), p.data(), static_cast<Index>(x.size())};
+    return {x.data(),
+            v.data(),
+            rho.data(),
+            p.data(),
+            static_cast<Index>(x.size()),
+            s.empty() ? nullptr : s.data()};
   }
 };
 
 /// All that the passes return.
 struct Results {
-  Array<double> drho_dt;
-  Array<Line> X, f, f_viscous;
-  explicit Results(Index n)
-      : drho_dt(static_cast<std::size_t>(n), -7.0),
-        X(static_cast<std::size_t>(n), Line{7, 7, 7, 7}),
-        f(static_cast<std::size_t>(n)),
-        f_viscous(static_cast<std::size_t>(n), Line{7, 7, 7, 7}) {}
+  Array<double> drho_dt, drho_diffusion, drho_correction, sum_mW, sum_VW;
+  Array<Line> X, concentration, f, f_viscous, f_laminar, f_tensile, f_correction;
+  explicit Results(Index n) {
+    const auto size = static_cast<std::size_t>(n);
+    for (Array<double>* a : {&drho_dt, &drho_diffusion, &drho_correction, &sum_mW, &sum_VW}) {
+      a->assign(size, -7.0);
+    }
+    for (Array<Line>* a : {&X, &concentration, &f_viscous, &f_laminar, &f_tensile, &f_correction}) {
+      a->assign(size, Line{7, 7, 7, 7});
+    }
+    f.assign(size, Line{});
+  }
 };
 
-/// Which of the optional terms are on.
+/// Which of the optional terms are on. `all`: every term there is.
 struct Terms {
   bool xsph = true;
   bool viscosity = true;
+  bool all = false;
 };
+
+inline RatesOut rates_of(Results& r, Terms terms) {
+  RatesOut out{r.drho_dt.data(), terms.xsph ? r.X.data() : nullptr};
+  if (!terms.all) return out;
+  out.drho_diffusion = r.drho_diffusion.data();
+  out.drho_correction = r.drho_correction.data();
+  out.concentration = r.concentration.data();
+  out.sum_mW = r.sum_mW.data();
+  out.sum_VW = r.sum_VW.data();
+  return out;
+}
+
+inline ForceOut force_of(Results& r, Terms terms) {
+  ForceOut out{r.f.data(), terms.viscosity ? r.f_viscous.data() : nullptr};
+  if (!terms.all) return out;
+  out.f_laminar = r.f_laminar.data();
+  out.f_tensile = r.f_tensile.data();
+  out.f_correction = r.f_correction.data();
+  return out;
+}
 
 inline Results reference(const Fluid& fluid, Terms terms = {}) {
   Results r(fluid.n_targets);
-  reference_rates(fluid.view(), fluid.n_targets, fluid.k,
-                  {r.drho_dt.data(), terms.xsph ? r.X.data() : nullptr});
-  reference_force(fluid.view(), fluid.n_targets, fluid.k,
-                  {r.f.data(), terms.viscosity ? r.f_viscous.data() : nullptr});
+  reference_rates(fluid.view(), fluid.n_targets, fluid.k, rates_of(r, terms));
+  reference_force(fluid.view(), fluid.n_targets, fluid.k, force_of(r, terms));
   return r;
 }
 
-inline void run_kernels(Isa set, const PairJob& job, Terms terms) {
-  if (set == Isa::avx512) {
-    terms.xsph ? avx512::pair_rates_xsph(job) : avx512::pair_rates(job);
-    terms.viscosity ? avx512::pair_force_viscous(job) : avx512::pair_force(job);
-  } else {
-    terms.xsph ? avx2::pair_rates_xsph(job) : avx2::pair_rates(job);
-    terms.viscosity ? avx2::pair_force_viscous(job) : avx2::pair_force(job);
-  }
-}
-
 /// Both passes with the kernels of one instruction set. skin: added to the list's radius [m].
-inline Results vectorised(Isa set, const Fluid& fluid, Terms terms = {}, double skin = 0) {
+inline Results vectorised(Isa set, const Fluid& fluid, Terms terms = {}, double skin = 0,
+                          bool single = false) {
   Results r(fluid.n_targets);
+  const PassOptions options{.rho = fluid.rho.data(), .set = set};
+  const double reach = support(fluid.k.kernel) * fluid.k.h;
   ClusterList list;
-  build_cluster_list(fluid.x, fluid.n_targets, 2.0 * fluid.k.h * (1 + 1e-12) + skin, list, set);
-  Array<PackedParticle> packed;
-  pack_particles(fluid.view(), packed);
-  PairJob job = pair_job(list, packed, fluid.k);
-  job.drho_dt = r.drho_dt.data();
-  job.X = &r.X.data()->x;
-  job.f = &r.f.data()->x;
-  job.f_viscous = &r.f_viscous.data()->x;
-  run_kernels(set, job, terms);
+  build_cluster_list(fluid.x, fluid.n_targets, reach * (1 + 1e-12) + skin, list, set);
+  Packed packed;
+  packed.single = single;
+  ParticleView view = fluid.view();
+  view.p = nullptr;
+  pack_particles(view, reach, packed);
+  pair_rates(list, packed, fluid.k, rates_of(r, terms), options);
+  pack_particles(fluid.view(), reach, packed);
+  pair_force(list, packed, fluid.k, force_of(r, terms), options);
   return r;
 }
 

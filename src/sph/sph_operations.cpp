@@ -1,0 +1,219 @@
+#include "sph/sph_operations.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "sph/neighbour_lists.hpp"
+#include "sph/pair_pass.hpp"
+
+namespace gannet {
+
+namespace {
+
+ParticleView view_of(const SphState& sph, const Scene& scene) {
+  const Index first = scene.particles.begin;
+  ParticleView view;
+  view.x = scene.nodes.x.data() + first;
+  view.v = scene.nodes.v.data() + first;
+  view.rho = sph.rho.data();
+  view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
+  return view;
+}
+
+PairParameters parameters_of(const SphState& sph) {
+  return {.dimension = sph.kernel.dimension,
+          .h = sph.h,
+          .m = sph.m,
+          .c0 = sph.c0,
+          .alpha = sph.terms.alpha,
+          .beta = sph.terms.beta,
+          .epsilon = sph.terms.epsilon,
+          .kernel = sph.kernel.type,
+          .rho0 = sph.rho0,
+          .dx = sph.dx,
+          .delta = sph.terms.delta,
+          .mu = sph.terms.mu,
+          .tensile = sph.terms.tensile};
+}
+
+/// The results that a term asks for: the array that its effect made, or null.
+template <class T>
+T* wanted(Array<T>& results) {
+  return results.empty() ? nullptr : results.data();
+}
+
+ForceOut force_out(SphState& sph, Scene& scene) {
+  return {.f = scene.nodes.f.data() + scene.particles.begin,
+          .f_viscous = wanted(sph.f_viscous),
+          .f_laminar = wanted(sph.f_laminar),
+          .f_tensile = wanted(sph.f_tensile),
+          .f_correction = wanted(sph.f_correction)};
+}
+
+RatesOut rates_out(SphState& sph) {
+  return {.drho_dt = sph.drho_dt.data(),
+          .X = sph.terms.epsilon > 0 ? sph.X.data() : nullptr,
+          .drho_diffusion = wanted(sph.drho_diffusion),
+          .drho_correction = wanted(sph.drho_correction),
+          .concentration = wanted(sph.concentration)};
+}
+
+/// "pressure", "pressure and viscosity", "pressure, viscosity and correction"
+std::string in_words(const std::vector<std::string>& terms) {
+  std::string text = terms.front();
+  for (std::size_t k = 1; k < terms.size(); ++k) {
+    text += (k + 1 == terms.size() ? " and " : ", ") + terms[k];
+  }
+  return text;
+}
+
+/// A term of a pass: its name, what it writes, and whether it is on.
+struct Term {
+  const char* name;
+  const char* writes;
+  bool on;
+};
+
+/// Names and results of the terms that are on.
+struct Terms {
+  std::vector<std::string> names;
+  std::vector<std::string> writes;
+};
+
+Terms terms_on(std::initializer_list<Term> all) {
+  Terms terms;
+  for (const Term& term : all) {
+    if (!term.on) continue;
+    terms.names.emplace_back(term.name);
+    terms.writes.emplace_back(term.writes);
+  }
+  return terms;
+}
+
+void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
+  plan.add({.name = "pack particles for the force",
+            .reason =
+                "rule: a pair pass reads one line a particle, of 64 bytes (32 in single precision)",
+            .stage = Stage::force,
+            .reads = {"x", "v", "rho", "p"},
+            .run = [&](const Step&) {
+              ParticleView view = view_of(sph, scene);
+              view.p = sph.p.data();
+              pack_particles(view, sph.kernel.reach(), sph.packed);
+            }});
+  const Terms terms = terms_on({{"pressure", "f", true},
+                                {"viscosity", "f_viscous", !sph.f_viscous.empty()},
+                                {"laminar viscosity", "f_laminar", !sph.f_laminar.empty()},
+                                {"tensile repulsion", "f_tensile", !sph.f_tensile.empty()},
+                                {"corrected gradient", "f_correction", !sph.f_correction.empty()}});
+  plan.add({.name = "particle pair pass: " + in_words(terms.names),
+            .reason = reason,
+            .stage = Stage::force,
+            .reads = {"x", "v", "rho", "p"},
+            .writes = terms.writes,
+            .run =
+                [&](const Step&) {
+                  pair_force(sph.list, sph.packed, parameters_of(sph), force_out(sph, scene),
+                             {.rho = sph.rho.data()});
+                },
+            .stable_dt =
+                [&] {
+                  sph.vote = smallest_stable_step(sph, scene);
+                  return sph.vote.dt;
+                },
+            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); }});
+}
+
+void add_lists(SphState& sph, Scene& scene, Plan& plan) {
+  plan.add({.name = "neighbour lists",
+            .reason = fmt::format("rule: made anew when neighbours may have moved by the skin of "
+                                  "{:.3g} m, relative to each other",
+                                  sph.skin),
+            .stage = Stage::half_drift,
+            .reads = {"x", "v"},
+            .writes = {"x_build", "order of particles"},
+            .owns = {"x_build"},
+            .run = [&](const Step& step) {
+              if (lists_are_stale(sph, scene, 0.5 * step.dt)) rebuild_lists(sph, scene);
+            }});
+}
+
+void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
+  plan.add({.name = "pack particles for the rates",
+            .reason =
+                "rule: a pair pass reads one line a particle, of 64 bytes (32 in single precision)",
+            .stage = Stage::rates,
+            .reads = {"x", "v", "rho"},
+            .run = [&](const Step&) {
+              ParticleView view = view_of(sph, scene);
+              view.s = wanted(sph.s);
+              pack_particles(view, sph.kernel.reach(), sph.packed);
+            }});
+  const Terms terms =
+      terms_on({{"density rate", "drho_dt", true},
+                {"XSPH", "X", sph.terms.epsilon > 0},
+                {"density diffusion", "drho_diffusion", !sph.drho_diffusion.empty()},
+                {"concentration", "concentration", !sph.concentration.empty()},
+                {"corrected divergence", "drho_correction", !sph.drho_correction.empty()}});
+  plan.add({.name = "particle pair pass: " + in_words(terms.names),
+            .reason = reason,
+            .stage = Stage::rates,
+            .reads = {"x", "v", "rho"},
+            .writes = terms.writes,
+            .owns = {"drho_dt"},
+            .run = [&](const Step&) {
+              pair_rates(sph.list, sph.packed, parameters_of(sph), rates_out(sph),
+                         {.rho = sph.rho.data()});
+            }});
+  plan.add({.name = "density and pressure",
+            .reason = reason,
+            .stage = Stage::rates,
+            .reads = {"drho_dt"},
+            .writes = {"rho", "p"},
+            .owns = {"rho", "p"},
+            .run = [&](const Step& step) { advance_density(sph, scene, step.dt); }});
+}
+
+void add_look(SphState& sph, Scene& scene, Models& models, const std::string& reason) {
+  Plan& plan = models.of_node(scene.particles.begin).plan;
+  std::vector<LedgerEntry*> entries;
+  for (const int part : sph.parts) {
+    entries.push_back(&models.ledger.entry("internal", scene.parts[part].name));
+  }
+  plan.add({.name = "internal energy of particles",
+            .reason = reason,
+            .stage = Stage::look,
+            .reads = {"rho"},
+            .run = [&, entries](const Step&) {
+              for (std::size_t k = 0; k < entries.size(); ++k) {
+                entries[k]->value = internal_energy_of_part(sph, scene, sph.parts[k]);
+              }
+            }});
+  plan.add({.name = "check of the speed of sound",
+            .reason = "rule: every 100 steps, until it warns",
+            .stage = Stage::look,
+            .reads = {"v", "rho"},
+            .run = [&](const Step& step) {
+              if (sph.warned || step.n % 100 != 0) return;
+              const std::string warning = sound_speed_warning(sph, scene, step.dt);
+              if (warning.empty()) return;
+              scene.warnings.push_back(fmt::format("t = {:.6g} s: {}", step.t, warning));
+              sph.warned = true;
+            }});
+}
+
+}  // namespace
+
+void add_particle_operations(SphState& sph, Scene& scene, Models& models,
+                             const std::string& reason) {
+  Plan& plan = models.of_node(scene.particles.begin).plan;
+  // The first force pass needs lists: all states are there by now, so sorting permutes them all.
+  rebuild_lists(sph, scene);
+  add_force(sph, scene, plan, reason);
+  add_look(sph, scene, models, reason);
+  add_lists(sph, scene, plan);
+  add_rates(sph, scene, plan, reason);
+}
+
+}  // namespace gannet

@@ -1,0 +1,19 @@
+// What a step does with particles, whatever the case: the two pair passes, density and pressure,
+// lists, energies.
+#pragma once
+
+#include <string>
+
+#include "plan/plan.hpp"
+#include "scene/scene.hpp"
+#include "sph/sph_state.hpp"
+
+namespace gannet {
+
+/// Adds the operations of all particles to their model's plan, and makes the first lists. Which
+/// terms the pair passes have is known by now: sph.terms, and which arrays of results there are.
+/// reason: where the case asks for particles.
+void add_particle_operations(SphState& sph, Scene& scene, Models& models,
+                             const std::string& reason);
+
+}  // namespace gannet
