@@ -2,7 +2,9 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "base/parallel.hpp"
 
@@ -32,7 +34,15 @@ bool has_images(const Halo& halo, std::size_t d, int end) {
   return end < 0 ? halo.wall_low[d] : halo.wall_high[d];
 }
 
-/// What images of these ends (-1, 0, 1 by direction) look like.
+/// The ends (-1, 0, 1) of an image's kind: x runs fastest, kind 13 is the particle itself.
+constexpr std::size_t n_kinds = 27;
+constexpr std::size_t no_image = 13;
+constexpr std::array<int, 3> ends_of(std::size_t kind) {
+  const int k = static_cast<int>(kind);
+  return {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+}
+
+/// What images of these ends look like.
 Image image_at(const Halo& halo, const std::array<int, 3>& ends) {
   Image image;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -47,58 +57,158 @@ Image image_at(const Halo& halo, const std::array<int, 3>& ends) {
   return image;
 }
 
-/// Whether an image is near enough to the domain to be somebody's neighbour.
-bool within_reach(const Halo& halo, const std::array<int, 3>& ends, const Vec3& image,
-                  double reach) {
+/// How particles find their images along one direction, for each end.
+struct Ends {
+  bool there[3];
+  double sign[3];
+  double shift[3];
+  double least[3];  ///< an image lies between these [m]
+  double most[3];
+};
+
+std::array<Ends, 3> ends_of_domain(const Halo& halo, double reach) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::array<Ends, 3> all{};
   for (std::size_t d = 0; d < 3; ++d) {
     const auto k = static_cast<Eigen::Index>(d);
-    const bool low = halo.periodic[d] || ends[d] < 0;
-    const bool high = halo.periodic[d] || ends[d] > 0;
-    if (low && image[k] < halo.low[k] - reach) return false;
-    if (high && image[k] > halo.high[k] + reach) return false;
+    for (int end = -1; end <= 1; ++end) {
+      std::array<int, 3> ends{0, 0, 0};
+      ends[d] = end;
+      const Image image = image_at(halo, ends);
+      const auto e = static_cast<std::size_t>(end + 1);
+      all[d].there[e] = has_images(halo, d, end);
+      all[d].sign[e] = image.sign[k];
+      all[d].shift[e] = image.shift[k];
+      all[d].least[e] = halo.periodic[d] || end < 0 ? halo.low[k] - reach : -far;
+      all[d].most[e] = halo.periodic[d] || end > 0 ? halo.high[k] + reach : far;
+    }
   }
-  return true;
+  return all;
 }
 
-void add_images(const Line* x, Index n, double reach, const std::array<int, 3>& ends, Halo& halo) {
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!has_images(halo, d, ends[d])) return;
+/// Bit e + 1 is set where the image at end e of this direction is near enough to the domain to be
+/// somebody's neighbour.
+unsigned near_ends(const Ends& ends, double x) {
+  unsigned near = 0;
+  for (unsigned e = 0; e < 3; ++e) {
+    const double image = ends.sign[e] * x + ends.shift[e];
+    const bool far = image < ends.least[e] || image > ends.most[e];
+    if (ends.there[e] && !far) near |= 1U << e;
   }
-  const Image image = image_at(halo, ends);
-  for (Index k = 0; k < n; ++k) {
-    if (!within_reach(halo, ends, image.point(xyz(x[k])), reach)) continue;
-    halo.source.push_back(k);
-    halo.image.push_back(image);
+  return near;
+}
+
+/// Calls f(kind) for the kinds of images that a particle has, in order.
+template <class F>
+void for_images(const std::array<Ends, 3>& ends, const Line& x, F&& f) {
+  constexpr unsigned only_itself = 2;
+  const unsigned near[3] = {near_ends(ends[0], x.x), near_ends(ends[1], x.y),
+                            near_ends(ends[2], x.z)};
+  if ((near[0] | near[1] | near[2]) == only_itself) return;
+  for (std::size_t kind = 0; kind < n_kinds; ++kind) {
+    const bool has =
+        (near[0] >> kind % 3 & near[1] >> kind / 3 % 3 & near[2] >> kind / 9 & 1U) != 0;
+    if (has && kind != no_image) f(kind);
   }
 }
 
-void copy_field(const Field& field, Index from, Index to) {
-  for (int c = 0; c < field.components; ++c) {
-    std::memcpy(field.at(to, c), field.at(from, c), static_cast<std::size_t>(size_of(field.type)));
+/// Where the images of each kind from each chunk of particles go among the ghosts.
+using KindCounts = std::array<Index, n_kinds>;
+
+/// Turns the numbers of images by chunk and kind into places, kind after kind; fills halo.kinds.
+/// Returns the number of all.
+Index places_of(std::vector<KindCounts>& chunks, Halo& halo) {
+  Index next = 0;
+  for (std::size_t kind = 0; kind < n_kinds; ++kind) {
+    const Index begin = next;
+    for (KindCounts& chunk : chunks) next += std::exchange(chunk[kind], next);
+    if (next > begin) halo.kinds.push_back({image_at(halo, ends_of(kind)), {begin, next}});
+  }
+  return next;
+}
+
+/// The entries of a field with base and strides at hand.
+template <class T>
+struct Entries {
+  std::byte* base;
+  Layout layout;
+  T& at(Index entry, int c) const {
+    const std::ptrdiff_t place = layout.lanes == 1
+                                     ? entry * layout.entry_stride
+                                     : (entry / layout.lanes) * layout.block_stride +
+                                           (entry % layout.lanes) * layout.entry_stride;
+    return *reinterpret_cast<T*>(base + place + c * layout.component_stride);
+  }
+};
+
+template <class T>
+Entries<T> entries_of(const Field& field) {
+  return {field.base(), field.layout};
+}
+
+/// Ghosts [begin, end) become copies; `first` and `ghosts` are the entries of the first particle
+/// and the first ghost.
+template <class T>
+void copy_values(const Field& field, const Halo& halo, Index first, Index ghosts, Index begin,
+                 Index end) {
+  const Entries<T> entries = entries_of<T>(field);
+  const Index* source = halo.source.data();
+  for (Index g = begin; g < end; ++g) {
+    for (int c = 0; c < field.components; ++c) {
+      entries.at(ghosts + g, c) = entries.at(first + source[g], c);
+    }
   }
 }
 
-double& number_at(const Field& field, Index entry, Eigen::Index c) {
-  return *reinterpret_cast<double*>(field.at(entry, static_cast<int>(c)));
-}
-
-/// A copied vector or point becomes that of the image.
-void transform_entry(const Field& field, Index entry, const Image& image) {
+/// The same for vectors and points.
+void copy_vectors(const Field& field, const Halo& halo, Index first, Index ghosts, Index begin,
+                  Index end) {
   assert(field.type == Type::f64 && field.components == 3);
+  const Entries<double> entries = entries_of<double>(field);
+  const Index* source = halo.source.data();
   const bool point = field.ghosts == GhostRule::copy_shifted;
-  for (Eigen::Index d = 0; d < 3; ++d) {
-    double& value = number_at(field, entry, d);
-    value = image.sign[d] * value + (point ? image.shift[d] : 0.0);
+  for_kinds(halo, begin, end, [&](const Image& image, Index from, Index to) {
+    const Vec3 sign = image.sign;
+    const Vec3 shift = point ? image.shift : Vec3::Zero();
+    for (Index g = from; g < to; ++g) {
+      for (int d = 0; d < 3; ++d) {
+        entries.at(ghosts + g, d) = sign[d] * entries.at(first + source[g], d) + shift[d];
+      }
+    }
+  });
+}
+
+void copy_stretch(const Field& field, const Halo& halo, Index first, Index ghosts, Index begin,
+                  Index end) {
+  if (field.components == 3) return copy_vectors(field, halo, first, ghosts, begin, end);
+  switch (field.type) {
+    case Type::f64:
+      return copy_values<double>(field, halo, first, ghosts, begin, end);
+    case Type::i64:
+      return copy_values<std::int64_t>(field, halo, first, ghosts, begin, end);
+    case Type::i32:
+      return copy_values<std::int32_t>(field, halo, first, ghosts, begin, end);
+    case Type::u8:
+      return copy_values<std::uint8_t>(field, halo, first, ghosts, begin, end);
   }
 }
 
-void add_entry(const Field& field, Index from, Index to, const Image& image) {
+/// Adds ghosts of one kind to their sources, which all differ, and clears them.
+void add_kind(const Field& field, const Halo& halo, Index first, Index ghosts,
+              const ImageKind& kind) {
   assert(field.type == Type::f64);
-  for (Eigen::Index c = 0; c < field.components; ++c) {
-    double& ghost = number_at(field, from, c);
-    number_at(field, to, c) += c < 3 && field.components >= 3 ? image.sign[c] * ghost : ghost;
-    ghost = 0;
-  }
+  const Entries<double> entries = entries_of<double>(field);
+  const Index* source = halo.source.data();
+  parallel_for(kind.ghosts.size(), node_chunk, [&](Index begin, Index end) {
+    for (Index g = kind.ghosts.begin + begin; g < kind.ghosts.begin + end; ++g) {
+      for (int c = 0; c < field.components; ++c) {
+        const double sign = c < 3 && field.components >= 3 ? kind.image.sign[c] : 1.0;
+        double& ghost = entries.at(ghosts + g, c);
+        entries.at(first + source[g], c) += sign * ghost;
+        ghost = 0;
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -116,19 +226,34 @@ void wrap_particles(const Halo& halo, Scene& scene) {
 }
 
 void choose_images(const Line* x, Index n, double reach, Halo& halo) {
-  halo.source.clear();
-  halo.image.clear();
-  for (int k = -1; k <= 1; ++k) {
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        if (i != 0 || j != 0 || k != 0) add_images(x, n, reach, {i, j, k}, halo);
-      }
+  halo.clear_images();
+  const std::array<Ends, 3> ends = ends_of_domain(halo, reach);
+  std::vector<KindCounts> chunks(static_cast<std::size_t>((n + node_chunk - 1) / node_chunk));
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    KindCounts counts{};
+    for (Index k = begin; k < end; ++k) {
+      for_images(ends, x[k], [&](std::size_t kind) { ++counts[kind]; });
     }
+    chunks[static_cast<std::size_t>(begin / node_chunk)] = counts;
+  });
+  const auto n_images = static_cast<std::size_t>(places_of(chunks, halo));
+  halo.source.resize(n_images);
+  halo.kind.resize(n_images);
+  for (std::size_t k = 0; k < halo.kinds.size(); ++k) {
+    const Range& ghosts = halo.kinds[k].ghosts;
+    std::fill(halo.kind.begin() + ghosts.begin, halo.kind.begin() + ghosts.end,
+              static_cast<std::uint8_t>(k));
   }
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    KindCounts next = chunks[static_cast<std::size_t>(begin / node_chunk)];
+    for (Index k = begin; k < end; ++k) {
+      for_images(ends, x[k], [&](std::size_t kind) { halo.source[next[kind]++] = k; });
+    }
+  });
 }
 
 void resize_ghosts(const Halo& halo, Scene& scene) {
-  const auto n = static_cast<Index>(halo.source.size());
+  const Index n = halo.n_ghosts();
   scene.nodes.n_ghosts = n;
   for (const Field& field : scene.fields) {
     Index first = 0;
@@ -137,32 +262,36 @@ void resize_ghosts(const Halo& halo, Scene& scene) {
   }
 }
 
-void copy_out(const Halo& halo, Scene& scene) {
-  const auto n = static_cast<Index>(halo.source.size());
-  for (const Field& field : scene.fields) {
+FieldPlaces copied_fields(const Scene& scene) {
+  FieldPlaces places;
+  for (std::size_t k = 0; k < scene.fields.size(); ++k) {
+    const Field& field = scene.fields[k];
     Index first = 0;
-    if (field.ghosts != GhostRule::copy_shifted && field.ghosts != GhostRule::copy) continue;
-    if (!first_particle(field, scene, first)) continue;
-    const Index ghosts = first + scene.particles.size();
-    parallel_for(n, node_chunk, [&](Index begin, Index end) {
-      for (Index g = begin; g < end; ++g) {
-        const auto at = static_cast<std::size_t>(g);
-        copy_field(field, first + halo.source[at], ghosts + g);
-        if (field.components == 3) transform_entry(field, ghosts + g, halo.image[at]);
-      }
-    });
+    const bool copied = field.ghosts == GhostRule::copy_shifted || field.ghosts == GhostRule::copy;
+    if (copied && first_particle(field, scene, first)) places.push_back(k);
   }
+  return places;
 }
 
+void copy_out(const Halo& halo, Scene& scene, std::span<const std::size_t> fields) {
+  parallel_for(halo.n_ghosts(), node_chunk, [&](Index begin, Index end) {
+    for (const std::size_t k : fields) {
+      const Field& field = scene.fields[k];
+      Index first = 0;
+      first_particle(field, scene, first);
+      copy_stretch(field, halo, first, first + scene.particles.size(), begin, end);
+    }
+  });
+}
+
+void copy_out(const Halo& halo, Scene& scene) { copy_out(halo, scene, copied_fields(scene)); }
+
 void add_back(const Halo& halo, Scene& scene) {
-  const auto n = static_cast<Index>(halo.source.size());
   for (const Field& field : scene.fields) {
     Index first = 0;
     if (field.ghosts != GhostRule::add_back || !first_particle(field, scene, first)) continue;
-    const Index ghosts = first + scene.particles.size();
-    for (Index g = 0; g < n; ++g) {
-      const auto at = static_cast<std::size_t>(g);
-      add_entry(field, ghosts + g, first + halo.source[at], halo.image[at]);
+    for (const ImageKind& kind : halo.kinds) {
+      add_kind(field, halo, first, first + scene.particles.size(), kind);
     }
   }
 }

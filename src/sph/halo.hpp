@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "base/array.hpp"
 #include "base/math.hpp"
@@ -23,6 +27,12 @@ struct Image {
   [[nodiscard]] Vec3 point(const Vec3& x) const { return vector(x) + shift; }
 };
 
+/// Ghosts that follow from their sources in one way.
+struct ImageKind {
+  Image image;
+  Range ghosts;  ///< numbers of the ghosts, from 0
+};
+
 /// Directions in which the domain repeats or ends at a wall, and the images
 /// that follow.
 struct Halo {
@@ -37,7 +47,16 @@ struct Halo {
   /// Source of ghost g, whose node is particles.end + g: index among the
   /// particles.
   Array<Index> source;
-  Array<Image> image;  ///< of ghost g
+  Array<std::uint8_t> kind;      ///< of ghost g: place in `kinds`
+  std::vector<ImageKind> kinds;  ///< in the order of their ghosts, none without any
+  [[nodiscard]] Index n_ghosts() const { return static_cast<Index>(source.size()); }
+  /// How ghost g follows from its source.
+  [[nodiscard]] const Image& image_of(Index g) const { return kinds[kind[g]].image; }
+  void clear_images() {
+    source.clear();
+    kind.clear();
+    kinds.clear();
+  }
   [[nodiscard]] bool has_walls() const {
     return std::ranges::find(wall_low, true) != wall_low.end() ||
            std::ranges::find(wall_high, true) != wall_high.end();
@@ -52,6 +71,17 @@ struct Halo {
 /// never wrapped. Throws nothing.
 void wrap_particles(const Halo& halo, Scene& scene);
 
+/// Calls f(image, begin, end) for the stretches of [begin, end) whose ghosts are of one kind, in
+/// order.
+template <class F>
+void for_kinds(const Halo& halo, Index begin, Index end, F&& f) {
+  for (const ImageKind& kind : halo.kinds) {
+    const Index from = std::max(begin, kind.ghosts.begin);
+    const Index to = std::min(end, kind.ghosts.end);
+    if (from < to) f(kind.image, from, to);
+  }
+}
+
 /// Chooses the images of n particles at `x`: in each direction one of the lower
 /// end (a shift by a period, the mirror image at a wall), of the upper end, or
 /// none, not all none, that lie within `reach` of the domain.
@@ -64,14 +94,20 @@ void choose_images(const Line* x, Index n, double reach, Halo& halo);
 /// field over nodes and over particles. The values of owned entries stay.
 void resize_ghosts(const Halo& halo, Scene& scene);
 
-/// Copies the values of sources to ghosts, in every field with ghost rule copy
-/// or copy_shifted. Fields of three components are vectors: a wall mirrors
-/// them.
+/// Fields of a scene, by their place in scene.fields.
+using FieldPlaces = std::vector<std::size_t>;
+
+/// The fields that ghosts have a copy of: rule copy or copy_shifted, over nodes or particles.
+FieldPlaces copied_fields(const Scene& scene);
+
+/// Copies the values of sources to ghosts, in the fields given (all of rule copy or copy_shifted)
+/// or in all that are copied. Fields of three components are vectors: a wall mirrors them.
+void copy_out(const Halo& halo, Scene& scene, std::span<const std::size_t> fields);
 void copy_out(const Halo& halo, Scene& scene);
 
 /// Adds what ghosts collected to their sources, in every field with ghost rule
-/// add_back, and clears it on the ghosts. Ghosts are taken in order, so that
-/// the bits do not depend on threads.
+/// add_back, and clears it on the ghosts. What meets in one source is added in the order of the
+/// ghosts, so that the bits do not depend on threads.
 void add_back(const Halo& halo, Scene& scene);
 
 }  // namespace gannet

@@ -72,7 +72,7 @@ double pressure_force(const SphState& sph, const Scene& scene, int d, bool lower
   return -parallel_sum(scene.nodes.n_ghosts, node_chunk, [&](Index begin, Index end) {
     double sum = 0;
     for (Index g = begin; g < end; ++g) {
-      const Image& image = sph.halo.image[static_cast<std::size_t>(g)];
+      const Image& image = sph.halo.image_of(g);
       const bool beyond = image.sign[d] < 0 && image.shift[d] == 2 * at;
       if (beyond) sum += force_of_image(sph, scene, first + g, d);
     }

@@ -19,13 +19,14 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   sph.x_build.resize(static_cast<std::size_t>(n));
   if (halo.active()) choose_images(sph.x_build.data(), n, reach(sph), halo);
   resize_ghosts(halo, scene);
-  const auto n_ghosts = static_cast<Index>(halo.source.size());
-  sph.x_build.resize(static_cast<std::size_t>(n + n_ghosts));
-  for (Index g = 0; g < n_ghosts; ++g) {
-    Line& x = sph.x_build[n + g];
-    x = sph.x_build[halo.source[g]];
-    set_xyz(x, halo.image[g].point(xyz(x)));
-  }
+  sph.x_build.resize(static_cast<std::size_t>(n + halo.n_ghosts()));
+  parallel_for(halo.n_ghosts(), node_chunk, [&](Index begin, Index end) {
+    for (Index g = begin; g < end; ++g) {
+      Line& x = sph.x_build[n + g];
+      x = sph.x_build[halo.source[g]];
+      set_xyz(x, halo.image_of(g).point(xyz(x)));
+    }
+  });
   copy_out(halo, scene);
   build_cluster_list(sph.x_build, n, reach(sph), sph.list);
   start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age);
@@ -55,19 +56,31 @@ void require_finite(const Scene& scene) {
                   "viscosity may help"});
 }
 
-/// Displacement of particle k since the lists were made, to the end of the step
-/// [m].
-Vec3 motion_of(const SphState& sph, const Scene& scene, Index k, double dt_half) {
-  const std::size_t i = static_cast<std::size_t>(scene.particles.begin + k);
-  Vec3 d = xyz(scene.nodes.x[i]) - xyz(sph.x_build[k]) + dt_half * xyz(scene.nodes.v[i]);
-  if (!sph.X.empty()) d += 2 * dt_half * xyz(sph.X[k]);
-  return d;
-}
+/// What the displacement of particles since the lists were made follows from.
+struct Motion {
+  const Line* x;
+  const Line* v;
+  const Line* x_build;
+  const Line* X;  ///< null without XSPH
+  double dt_half;
+  Motion(const SphState& sph, const Scene& scene, double half)
+      : x(scene.nodes.x.data() + scene.particles.begin),
+        v(scene.nodes.v.data() + scene.particles.begin),
+        x_build(sph.x_build.data()),
+        X(sph.X.empty() ? nullptr : sph.X.data()),
+        dt_half(half) {}
+  /// Displacement of particle k, to the end of the step [m].
+  [[nodiscard]] Vec3 of(Index k) const {
+    Vec3 d = xyz(x[k]) - xyz(x_build[k]) + dt_half * xyz(v[k]);
+    if (X != nullptr) d += 2 * dt_half * xyz(X[k]);
+    return d;
+  }
+};
 
-/// Whether a particle that was too far from a wall to have an image has come
-/// within 2 h of it. Water that falls on a floor as a whole does not move
-/// relative to itself, so that the age of the lists does not tell.
-bool image_is_missing(const SphState& sph, const Scene& scene, double dt_half) {
+/// Whether a particle that was too far from a wall to have an image has come within 2 h of it, of
+/// those in one cell. Water that falls on a floor as a whole does not move relative to itself, so
+/// that the age of the lists does not tell.
+bool image_is_missing(const SphState& sph, Index n, const Motion& motion, Index cell) {
   const Halo& halo = sph.halo;
   const double near = sph.kernel.reach();
   const auto came_near = [&](const Vec3& from, const Vec3& to) {
@@ -80,16 +93,37 @@ bool image_is_missing(const SphState& sph, const Scene& scene, double dt_half) {
     }
     return false;
   };
+  for (Index i = sph.age.start[cell]; i < sph.age.start[cell + 1]; ++i) {
+    const Index k = sph.age.member[i];
+    if (k >= n) continue;
+    const Vec3 from = xyz(sph.x_build[k]);
+    if (came_near(from, from + motion.of(k))) return true;
+  }
+  return false;
+}
+
+/// The same of all cells. Only who moved towards a wall by the skin can have come that near.
+bool image_is_missing(const SphState& sph, Index n, const Motion& motion) {
+  const Halo& halo = sph.halo;
+  const double least = (1 - 1e-6) * sph.skin;
+  const auto moved = [&](const MotionBox& box) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto k = static_cast<Eigen::Index>(d);
+      if (halo.wall_low[d] && box.low[k] < -least) return true;
+      if (halo.wall_high[d] && box.high[k] > least) return true;
+    }
+    return false;
+  };
   return parallel_reduce(
-      scene.particles.size(), node_chunk, false,
-      [&](Index begin, Index end) {
-        for (Index k = begin; k < end; ++k) {
-          const Vec3 from = xyz(sph.x_build[k]);
-          if (came_near(from, from + motion_of(sph, scene, k, dt_half))) return true;
-        }
-        return false;
-      },
-      [](bool a, bool b) { return a || b; });
+             sph.age.n_cells(), 256, 0,
+             [&](Index begin, Index end) {
+               for (Index c = begin; c < end; ++c) {
+                 const MotionBox& box = sph.age.motion[c];
+                 if (moved(box) && image_is_missing(sph, n, motion, c)) return 1;
+               }
+               return 0;
+             },
+             [](int a, int b) { return a | b; }) != 0;
 }
 
 }  // namespace
@@ -98,8 +132,7 @@ void rebuild_lists(SphState& sph, Scene& scene) {
   const Index n = scene.particles.size();
   require_finite(scene);
   if (sph.halo.active()) {
-    sph.halo.source.clear();
-    sph.halo.image.clear();
+    sph.halo.clear_images();
     resize_ghosts(sph.halo, scene);
     wrap_particles(sph.halo, scene);
   }
@@ -116,12 +149,13 @@ void restore_lists(SphState& sph, Scene& scene) { build_from_x_build(sph, scene)
 
 bool lists_are_stale(SphState& sph, const Scene& scene, double dt_half) {
   const Index n = scene.particles.size();
+  const Motion motion(sph, scene, dt_half);
   measure_motion(sph.age, [&](Index source) -> Vec3 {
-    if (source < n) return motion_of(sph, scene, source, dt_half);
+    if (source < n) return motion.of(source);
     const Index g = source - n;
-    return sph.halo.image[g].vector(motion_of(sph, scene, sph.halo.source[g], dt_half));
+    return sph.halo.image_of(g).vector(motion.of(sph.halo.source[g]));
   });
-  return outdated(sph.age) || (sph.halo.has_walls() && image_is_missing(sph, scene, dt_half));
+  return outdated(sph.age) || (sph.halo.has_walls() && image_is_missing(sph, n, motion));
 }
 
 }  // namespace gannet

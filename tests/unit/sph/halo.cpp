@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "pool.hpp"
 #include "scene/draft.hpp"
 
 using namespace gannet;
@@ -44,7 +45,7 @@ TEST_CASE("halo: images of a corner, of a face and of the middle", "[sph]") {
   choose_images(x.data(), 3, 0.2, halo);
   std::set<std::tuple<Index, double, double, double>> images;
   for (std::size_t g = 0; g < halo.source.size(); ++g) {
-    const Vec3& s = halo.image[g].shift;
+    const Vec3& s = halo.image_of(static_cast<Index>(g)).shift;
     images.insert({halo.source[g], s.x(), s.y(), s.z()});
   }
   CHECK(halo.source.size() == 4);
@@ -73,7 +74,8 @@ TEST_CASE("halo: copy out shifts positions and copies the rest; add back sums fo
   copy_out(halo, scene);
   for (Index g = 0; g < 4; ++g) {
     const Index s = halo.source[g];
-    CHECK(xyz(scene.nodes.x[3 + g]) == xyz(scene.nodes.x[s]) + halo.image[g].shift);
+    CHECK(xyz(scene.nodes.x[3 + g]) ==
+          xyz(scene.nodes.x[s]) + halo.image_of(static_cast<Index>(g)).shift);
     CHECK(xyz(scene.nodes.v[3 + g]) == xyz(scene.nodes.v[s]));
     CHECK(scene.nodes.id[3 + g] == scene.nodes.id[s]);
     CHECK(three.rho[3 + g] == three.rho[s]);
@@ -130,4 +132,109 @@ TEST_CASE("halo: walls mirror positions and velocities, a corner both ways", "[s
     if (point[i] == 0) CHECK(xyz(scene.nodes.f[i]) == Vec3(0, 0, 16));
     if (point[i] == 1) CHECK(xyz(scene.nodes.f[i]) == Vec3(0, 4, 8));
   }
+}
+
+TEST_CASE("halo: only the fields that are asked for are copied", "[sph]") {
+  Three three({{0.1, -0.9, 5}, {5, 0.95, 7}, {5, 0, -3}});
+  Scene& scene = three.scene;
+  const Halo halo = [&] {
+    Halo h = periodic_xy();
+    choose_images(scene.nodes.x.data(), 3, 0.2, h);
+    return h;
+  }();
+  resize_ghosts(halo, scene);
+  copy_out(halo, scene);
+  CHECK(copied_fields(scene).size() == 6);  // x, m, v, id, part, rho
+  const Line x = scene.nodes.x[3];
+  scene.nodes.x[halo.source[0]].y += 1;
+  three.rho[halo.source[0]] = 9;
+  const auto rho = static_cast<std::size_t>(scene.field("rho") - scene.fields.data());
+  copy_out(halo, scene, std::vector{rho});
+  CHECK(three.rho[3] == 9);
+  CHECK(scene.nodes.x[3].y == x.y);
+}
+
+TEST_CASE("halo: many particles have the same images in the order of kinds and sources", "[sph]") {
+  Halo halo;
+  halo.periodic = {true, false, false};
+  halo.wall_low = {false, true, false};
+  halo.wall_high = {false, true, true};
+  halo.high = {1, 1, 1};
+  Array<Line> x;
+  std::uint64_t seed = 1;
+  const auto random = [&seed] {
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(seed >> 11) * 0x1p-53;
+  };
+  for (int k = 0; k < 20000; ++k) x.push_back({random(), random(), random(), 0});
+  const double reach = 0.2;
+  choose_images(x.data(), static_cast<Index>(x.size()), reach, halo);
+  // By hand: an image is one whose every coordinate is shifted or mirrored and within reach.
+  std::vector<Index> sources;
+  std::vector<Vec3> points;
+  for (int k = 0; k <= 1; ++k) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        for (Index s = 0; s < 20000 && (i != 0 || j != 0 || k != 0); ++s) {
+          const Vec3 p(x[s].x + i, j < 0 ? -x[s].y : (j > 0 ? 2 - x[s].y : x[s].y),
+                       k > 0 ? 2 - x[s].z : x[s].z);
+          if ((p.array() < -reach).any() || (p.array() > 1 + reach).any()) continue;
+          sources.push_back(s);
+          points.push_back(p);
+        }
+      }
+    }
+  }
+  REQUIRE(std::equal(sources.begin(), sources.end(), halo.source.begin(), halo.source.end()));
+  bool same = true;
+  for (std::size_t g = 0; g < sources.size(); ++g) {
+    const Vec3 image = halo.image_of(static_cast<Index>(g)).point(xyz(x[sources[g]]));
+    same = same && (image - points[g]).cwiseAbs().maxCoeff() < 1e-15;
+  }
+  CHECK(same);
+}
+
+TEST_CASE("halo: ghosts hold what their sources hold after every copy of a step", "[sph]") {
+  const char* text =
+      "materials: {water: {density: 1000, c0: 30 m/s}}\n"
+      "parts: {drop: {sph: {material: water, spacing: 0.1}, "
+      "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}, jitter: 0.1}}}\n"
+      "boundaries: {sides: {periodic: {x: [0, 0.8]}}}\n"
+      "effects: {viscosity: {alpha: 0.1}, xsph: {epsilon: 0.5}}";
+  test::Pool pool(text, 3, {0, 0, -10}, [](Scene& scene) {
+    scene.planes.push_back({"floor", Vec3::Zero(), Vec3::UnitZ(), {}});
+    for (Line& v : scene.nodes.v) set_xyz(v, {1, 0, -1});
+  });
+  Scene& scene = pool.scene;
+  Halo& halo = pool.sph().halo;
+  const auto of_ghosts = [&] {
+    std::vector<double> values;
+    for (Index g = scene.nodes.n_owned; g < scene.nodes.size(); ++g) {
+      for (const Array<Line>* field : {&scene.nodes.x, &scene.nodes.v}) {
+        const Line& line = (*field)[g];
+        values.insert(values.end(), {line.x, line.y, line.z});
+      }
+      const Index k = g - scene.particles.begin;
+      values.insert(values.end(),
+                    {pool.sph().rho[k], pool.sph().p[k], static_cast<double>(scene.nodes.id[g])});
+    }
+    return values;
+  };
+  int n_copies = 0;
+  for (const Stage stage : {Stage::half_drift, Stage::rates, Stage::drift}) {
+    for (Operation& op : pool.plan().at(stage)) {
+      if (!op.name.starts_with("halo: copy out")) continue;
+      op.run = [&, copy = op.run](const Step& step) {
+        copy(step);
+        const std::vector<double> copied = of_ghosts();
+        copy_out(halo, scene);
+        CHECK(copied == of_ghosts());
+        ++n_copies;
+      };
+    }
+  }
+  pool.run(60);
+  CHECK(n_copies == 180);
+  CHECK(pool.sph().n_builds > 1);
+  CHECK(scene.nodes.n_ghosts > 300);
 }
