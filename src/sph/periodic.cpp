@@ -4,8 +4,12 @@
 // periodic direction or a mirror wall none of these exists.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sph/effects.hpp"
@@ -77,6 +81,60 @@ void make_state(const Keys& root, Scene& scene) {
   }
 }
 
+constexpr std::string_view copy_name = "halo: copy out after ";
+
+bool copies_out(const Operation& op) { return op.name.starts_with(copy_name); }
+
+/// The operations of a step that come between the last copy to ghosts and this one, going back
+/// from it; a step follows another.
+std::vector<const Operation*> since_last_copy(const Plan& plan, Stage stage) {
+  std::vector<const Operation*> step;
+  std::size_t here = 0;
+  for (int s = 0; s < n_stages; ++s) {
+    for (const Operation& op : plan.at(static_cast<Stage>(s))) {
+      if (copies_out(op) && op.stage == stage) here = step.size();
+      step.push_back(&op);
+    }
+  }
+  std::vector<const Operation*> found;
+  for (std::size_t back = 1; back < step.size(); ++back) {
+    const Operation* op = step[(here + step.size() - back) % step.size()];
+    if (copies_out(*op)) break;
+    found.push_back(op);
+  }
+  return found;
+}
+
+/// The copied fields that an operation said to write since the last copy to ghosts: the others
+/// still hold what they were given then. (Whoever makes new ghosts fills all of them.)
+FieldPlaces changed_fields(const Scene& scene, const Plan& plan, Stage stage) {
+  const std::vector<const Operation*> before = since_last_copy(plan, stage);
+  FieldPlaces changed;
+  for (const std::size_t k : copied_fields(scene)) {
+    const std::string& name = scene.fields[k].name;
+    const bool written = std::ranges::any_of(before, [&](const Operation* op) {
+      return std::ranges::find(op->writes, name) != op->writes.end();
+    });
+    if (written) changed.push_back(k);
+  }
+  return changed;
+}
+
+/// Copies to ghosts at the end of a stage; which fields is known once all operations are there, at
+/// the first step.
+void add_copy(Plan& plan, Stage stage, const std::string& reason, const Halo& halo, Scene& scene) {
+  auto fields = std::make_shared<std::optional<FieldPlaces>>();
+  plan.add({.name = std::string(copy_name) + name_of(stage),
+            .reason = reason,
+            .stage = stage,
+            .reads = {"what was written since the last copy out"},
+            .writes = {"ghosts"},
+            .run = [&plan, &halo, &scene, stage, fields](const Step&) {
+              if (!*fields) *fields = changed_fields(scene, plan, stage);
+              copy_out(halo, scene, **fields);
+            }});
+}
+
 void add_operations(const Keys& root, Scene& scene, Models& models) {
   if (scene.particles.empty()) return;
   auto& sph = scene.store.get<SphState>();
@@ -92,12 +150,7 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
             .writes = {"f"},
             .run = [&](const Step&) { add_back(sph.halo, scene); }});
   for (const Stage stage : {Stage::half_drift, Stage::rates, Stage::drift}) {
-    plan.add({.name = fmt::format("halo: copy out after {}", name_of(stage)),
-              .reason = reason,
-              .stage = stage,
-              .reads = {"every field that ghosts copy"},
-              .writes = {"ghosts"},
-              .run = [&](const Step&) { copy_out(sph.halo, scene); }});
+    add_copy(plan, stage, reason, sph.halo, scene);
   }
 }
 
