@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gannet {
 
@@ -67,13 +68,53 @@ Index neighbour_of(const ListAge& age, Index c, const std::array<Index, 3>& away
   return inside ? (k * age.n[1] + j) * age.n[0] + i : -1;
 }
 
-bool cell_is_outdated(const ListAge& age, Index c) {
+/// Whether cell c and one of these neighbours differ by more than they may.
+bool cell_is_outdated(const ListAge& age, Index c, std::span<const ListAge::Neighbour> neighbours) {
   const MotionBox& here = age.motion[c];
   if (here.empty()) return false;
-  for (const ListAge::Neighbour& neighbour : age.neighbours) {
+  for (const ListAge::Neighbour& neighbour : neighbours) {
     const Index other = neighbour_of(age, c, neighbour.away);
     if (other < 0 || age.motion[other].empty()) continue;
     if (largest_difference(here, age.motion[other]) > neighbour.allowed) return true;
+  }
+  return false;
+}
+
+/// Boxes of the motion of each row of cells along x.
+std::vector<MotionBox> motion_of_rows(const ListAge& age) {
+  std::vector<MotionBox> rows(static_cast<std::size_t>(age.n[1] * age.n[2]));
+  for (Index r = 0; r < static_cast<Index>(rows.size()); ++r) {
+    for (Index c = r * age.n[0]; c < (r + 1) * age.n[0]; ++c) rows[r].add(age.motion[c]);
+  }
+  return rows;
+}
+
+/// The neighbours by row: each stretch has the same steps along y and z.
+std::vector<std::span<const ListAge::Neighbour>> by_row(const ListAge& age) {
+  std::vector<std::span<const ListAge::Neighbour>> rows;
+  const auto& all = age.neighbours;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    while (end < all.size() && all[end].away[1] == all[begin].away[1] &&
+           all[end].away[2] == all[begin].away[2]) {
+      ++end;
+    }
+    rows.push_back(std::span(all).subspan(begin, end - begin));
+  }
+  return rows;
+}
+
+/// Whether cells of a row differ too much from those of the row that `neighbours` lie in. Most
+/// rows need no look at their cells: as wholes they do not differ by that much.
+bool rows_are_outdated(const ListAge& age, std::span<const MotionBox> rows, Index row,
+                       std::span<const ListAge::Neighbour> neighbours) {
+  const Index first = row * age.n[0];
+  const Index other = neighbour_of(age, first, {0, neighbours[0].away[1], neighbours[0].away[2]});
+  if (other < 0 || rows[other / age.n[0]].empty()) return false;
+  double least = neighbours[0].allowed;
+  for (const ListAge::Neighbour& n : neighbours) least = std::min(least, n.allowed);
+  if (largest_difference(rows[row], rows[other / age.n[0]]) <= least) return false;
+  for (Index c = first; c < first + age.n[0]; ++c) {
+    if (cell_is_outdated(age, c, neighbours)) return true;
   }
   return false;
 }
@@ -98,14 +139,19 @@ void start_ageing(std::span<const Line> x, double support, double skin, double d
 }
 
 bool outdated(const ListAge& age) {
+  const std::vector<MotionBox> rows = motion_of_rows(age);
   MotionBox all;
-  for (const MotionBox& box : age.motion) all.add(box);
+  for (const MotionBox& box : rows) all.add(box);
   if (largest_difference(all, all) > age.allowed_elsewhere) return true;
+  const auto neighbours = by_row(age);
   const int found = parallel_reduce(
-      age.n_cells(), 64, 0,
+      static_cast<Index>(rows.size()), 4, 0,
       [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) {
-          if (cell_is_outdated(age, c)) return 1;
+        for (Index row = begin; row < end; ++row) {
+          if (rows[row].empty()) continue;
+          for (const auto& stretch : neighbours) {
+            if (rows_are_outdated(age, rows, row, stretch)) return 1;
+          }
         }
         return 0;
       },
