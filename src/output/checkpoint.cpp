@@ -77,6 +77,7 @@ CheckpointHead head_of(const Scene& scene, const Models& models, const RunRecord
   head.case_hash = record.case_hash;
   head.instruction_set = record.instruction_set;
   head.wall_time = record.wall_before + wall_time(record);
+  head.cpu_time = record.cpu_before + cpu_time();
   head.n_owned = scene.nodes.n_owned;
   head.n_ghosts = scene.nodes.n_ghosts;
   for (const Field& f : scene.fields) head.fields.push_back(shape_of(scene, f));
@@ -88,6 +89,7 @@ CheckpointHead head_of(const Scene& scene, const Models& models, const RunRecord
   }
   for (const LedgerEntry& e : models.ledger.entries()) head.ledger.push_back(e);
   head.last_look = record.output.last_look;
+  head.strays = record.output.strays;
   head.frames = record.output.frames;
   return head;
 }
@@ -319,6 +321,7 @@ std::vector<std::string> read_checkpoint(const std::string& path, Scene& scene, 
     record.output.frames = head.frames;
     record.output.finished = head.last_look >= record.plan.until;
     record.wall_before = head.wall_time;
+    record.cpu_before = head.cpu_time;
   } catch (const DamagedFile& error) {
     damaged(path, error.what());
   }

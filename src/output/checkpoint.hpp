@@ -27,7 +27,8 @@ std::string write_next_checkpoint(const Scene& scene, const Models& models, RunR
 bool checkpoint_due(const Models& models, const RunRecord& record);
 
 /// Reads a checkpoint into a scene that was built from the same case, resizes what has to grow,
-/// and calls scene.after_restart. Sets record.output and record.wall_before.
+/// and calls scene.after_restart. Sets record.output, record.wall_before
+/// and record.cpu_before.
 /// Returns warnings: another instruction set or revision (the bits may then differ), and what
 /// `force` let pass.
 /// Throws InputError, one message that names the file: it is missing or damaged; it belongs to

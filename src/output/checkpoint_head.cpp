@@ -104,6 +104,10 @@ CheckpointHead head_from(const Json& j) {
   head.case_hash = j.at("case_hash");
   head.instruction_set = j.at("instruction_set");
   head.wall_time = number(j.at("wall_time"));
+  // Not there in files of older programs.
+  if (j.contains("cpu_time")) head.cpu_time = number(j.at("cpu_time"));
+  if (j.contains("deepest_penetration")) head.strays.deepest = number(j.at("deepest_penetration"));
+  head.strays.lost = j.value("lost_particles", Index{0});
   head.n_owned = j.at("n_owned");
   head.n_ghosts = j.at("n_ghosts");
   for (const Json& f : j.at("fields")) head.fields.push_back(field_from(f));
@@ -127,6 +131,9 @@ std::string to_text(const CheckpointHead& head) {
                   {"case_hash", head.case_hash},
                   {"instruction_set", head.instruction_set},
                   {"wall_time", exact(head.wall_time)},
+                  {"cpu_time", exact(head.cpu_time)},
+                  {"deepest_penetration", exact(head.strays.deepest)},
+                  {"lost_particles", head.strays.lost},
                   {"n_owned", head.n_owned},
                   {"n_ghosts", head.n_ghosts},
                   {"fields", list_of(head.fields)},

@@ -22,6 +22,7 @@ struct CheckpointHead {
   std::string case_hash;
   std::string instruction_set;
   double wall_time = 0;  ///< of all runs up to here [s]
+  double cpu_time = 0;   ///< of all runs up to here [s]
   Index n_owned = 0;
   Index n_ghosts = 0;
 
@@ -55,6 +56,7 @@ struct CheckpointHead {
   std::vector<ModelState> models;
   std::vector<LedgerEntry> ledger;
   double last_look = 0;
+  StrayParticles strays;
   std::vector<Frame> frames;
 };
 

@@ -8,7 +8,9 @@
 
 #include "output/history.hpp"
 #include "output/report.hpp"
+#include "output/stray_particles.hpp"
 #include "output/vtk_series.hpp"
+#include "sph/sph_state.hpp"
 #include "time/guards.hpp"
 
 namespace gannet {
@@ -109,6 +111,22 @@ void add_histories(const Keys& keys, Scene& scene, Models& models, RunRecord& re
                                }});
 }
 
+/// Where histories are written; all runs look once more at their end.
+void add_stray_looks(const Keys& keys, Scene& scene, Models& models, RunRecord& record) {
+  if (scene.particles.size() == 0) return;
+  scene.store.get<StrayLimits>().lost = lost_limits(scene, scene.store.get<SphState>().dx);
+  if (!(record.plan.history.interval > 0)) return;
+  models.list.back().plan.add({.name = "stray particles",
+                               .reason = "for summary.json, with the histories: " +
+                                         reason(keys, "history", record.plan.history),
+                               .stage = Stage::look,
+                               .reads = {"x"},
+                               .run = [&scene, &record](const Step& s) {
+                                 if (!acts(record.plan.history, record, s)) return;
+                                 look_for_strays(scene, record.output.strays);
+                               }});
+}
+
 void add_frames(const Keys& keys, Scene& scene, Models& models, RunRecord& record) {
   if (!(record.plan.vtk.interval > 0)) return;
   models.list.back().plan.add({.name = "VTK frames",
@@ -127,6 +145,7 @@ void output_operations(const Keys& root, Scene& scene, Models& models) {
   record.plan = read_plan(keys);
   check_names(keys, scene);
   add_histories(keys, scene, models, record);
+  add_stray_looks(keys, scene, models, record);
   add_frames(keys, scene, models, record);
   models.list.back().plan.add(
       {.name = "end of run",

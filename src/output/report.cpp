@@ -69,6 +69,10 @@ std::string report(Scene& scene, const Models& models, const RunRecord& record) 
                  100 * scene.store.get<GuardState>().balance.error());
   fmt::format_to(out, "{} particle steps/s, {} element steps/s\n",
                  count_text(done.particle_steps / wall), count_text(done.element_steps / wall));
+  if (record.output.strays.lost > 0) {
+    fmt::format_to(out, "{} particles were lost: behind a wall, or far out (docs/output.md)\n",
+                   record.output.strays.lost);
+  }
   fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10} {:>7}\n", "stage", "operation", width, "calls",
                  "seconds", "share");
   double rest = wall;

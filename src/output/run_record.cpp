@@ -1,5 +1,7 @@
 #include "output/run_record.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 
 namespace gannet {
@@ -15,6 +17,15 @@ void begin_run(RunRecord& record, const Models& models) {
 
 double wall_time(const RunRecord& record) {
   return std::chrono::duration<double>(RunRecord::Clock::now() - record.wall_start).count();
+}
+
+double cpu_time() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 StepsDone steps_done(const Scene& scene, const Models& models, const RunRecord& record) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "output/schedule.hpp"
+#include "output/stray_particles.hpp"
 #include "plan/plan.hpp"
 
 namespace gannet {
@@ -30,6 +31,7 @@ struct OutputProgress {
   /// Time of the last level that output looked at [s]; below 0 before the first.
   double last_look = -std::numeric_limits<double>::infinity();
   std::vector<Frame> frames;  ///< complete frames, in order
+  StrayParticles strays;      ///< the worst at any look so far
   bool finished = false;      ///< the level at or past `until` was looked at: the run is done
   /// Files that were renamed or appended since the last checkpoint; a checkpoint brings them to
   /// the disk first, so that after a power cut nothing is missing that it counts on.
@@ -55,6 +57,7 @@ struct RunRecord {
   using Clock = std::chrono::steady_clock;
   Clock::time_point wall_start = Clock::now();
   double wall_before = 0;  ///< wall time of the runs that this one continues [s]
+  double cpu_before = 0;   ///< their CPU time up to the checkpoint, set-up included [s]
   Clock::time_point last_checkpoint = Clock::now();
   double last_checkpoint_t = 0;       ///< simulated time of the last checkpoint [s]
   double start_t = 0;                 ///< simulated time at which this process began [s]
@@ -67,6 +70,9 @@ void begin_run(RunRecord& record, const Models& models);
 
 /// Wall time since begin_run() [s].
 double wall_time(const RunRecord& record);
+
+/// CPU time of this process, set-up and all threads included [s].
+double cpu_time();
 
 /// Particles and elements that this process advanced by one step so far.
 struct StepsDone {

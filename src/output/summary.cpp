@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.hpp"
@@ -52,29 +53,44 @@ Json operations_json(const Models& models, double wall) {
   return list;
 }
 
+/// JSON has no infinity: null in its place.
+Json number_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+/// The worst of all looks and of this moment.
+void add_strays(Scene& scene, const RunRecord& record, Json& json) {
+  if (scene.particles.size() == 0) return;
+  StrayParticles strays = record.output.strays;
+  look_for_strays(scene, strays);
+  json["lost_particles"] = strays.lost;
+  json["deepest_penetration"] = number_json(strays.deepest);
+}
+
 }  // namespace
 
 std::string summary_text(Scene& scene, const Models& models, const RunRecord& record) {
   const double wall = wall_time(record);
   const StepsDone done = steps_done(scene, models, record);
   const Line sum = mass_and_momentum(scene.nodes);
-  const Json json = {{"status", record.status},
-                     {"exit_reason", record.exit_reason},
-                     {"case", record.case_file},
-                     {"version", full_version(record)},
-                     {"steps", models.list.back().step.n},
-                     {"time", models.list.front().step.t},
-                     {"wall_time", wall},
-                     {"wall_time_before", record.wall_before},
-                     {"threads", record.threads},
-                     {"instruction_set", record.instruction_set},
-                     {"energy_error", scene.store.get<GuardState>().balance.error()},
-                     {"mass", sum.w},
-                     {"momentum", {sum.x, sum.y, sum.z}},
-                     {"peak_memory_bytes", peak_memory_bytes()},
-                     {"particle_steps_per_second", wall > 0 ? done.particle_steps / wall : 0},
-                     {"element_steps_per_second", wall > 0 ? done.element_steps / wall : 0},
-                     {"operations", operations_json(models, wall)}};
+  Json json = {{"status", record.status},
+               {"exit_reason", record.exit_reason},
+               {"case", record.case_file},
+               {"version", full_version(record)},
+               {"steps", models.list.back().step.n},
+               {"time", models.list.front().step.t},
+               {"wall_time", wall},
+               {"wall_time_before", record.wall_before},
+               {"cpu_time", cpu_time()},
+               {"cpu_time_before", record.cpu_before},
+               {"threads", record.threads},
+               {"instruction_set", record.instruction_set},
+               {"energy_error", scene.store.get<GuardState>().balance.error()},
+               {"mass", sum.w},
+               {"momentum", {sum.x, sum.y, sum.z}},
+               {"peak_memory_bytes", peak_memory_bytes()},
+               {"particle_steps_per_second", wall > 0 ? done.particle_steps / wall : 0},
+               {"element_steps_per_second", wall > 0 ? done.element_steps / wall : 0}};
+  add_strays(scene, record, json);
+  json["operations"] = operations_json(models, wall);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

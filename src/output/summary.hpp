@@ -12,8 +12,11 @@ namespace gannet {
 /// The summary as JSON text, all SI:
 ///   status (completed, stopped, failed), exit_reason, case, version
 ///   steps (of the fastest model), time, wall_time (this process), wall_time_before (of the runs
-///   that it continues), threads, instruction_set
+///   that it continues), cpu_time and cpu_time_before (the same of all threads, set-up included),
+///   threads, instruction_set
 ///   energy_error: imbalance over the largest total energy so far
+///   lost_particles, deepest_penetration [m]: the worst at any look (stray_particles.hpp);
+///   null where nothing can be penetrated; only with particles
 ///   mass: sum m of the owned nodes; momentum: sum m v with v at the last half step
 ///   peak_memory_bytes: of this process
 ///   particle_steps_per_second, element_steps_per_second: over wall_time

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "contact/node_to_segment.hpp"
+#include "output/stray_particles.hpp"
 #include "time/guards.hpp"
 
 namespace gannet {
@@ -85,24 +85,6 @@ double smallest_particle_spacing(const Scene& scene, double reach) {
     grid.emplace(cell_key(cell_of(x, reach)), i);
   }
   return std::sqrt(best2);
-}
-
-double deepest_penetration(Scene& scene) {
-  double deepest = -infinity;
-  for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
-    const Vec3 x = xyz(scene.nodes.x[static_cast<std::size_t>(i)]);
-    for (const Plane& plane : scene.planes) {
-      deepest = std::max(deepest, -(x - plane.point).dot(plane.normal));
-    }
-  }
-  if (!scene.store.has<NodeToSegments>()) return deepest;
-  for (const NodeToSegment& contact : scene.store.get<NodeToSegments>().list) {
-    for (const Gap& gap : contact.gaps) {
-      if (gap.segment < 0) continue;
-      deepest = std::max(deepest, gap.penetration - contact.range.contact);
-    }
-  }
-  return deepest;
 }
 
 bool all_finite(const Nodes& nodes) {

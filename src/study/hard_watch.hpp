@@ -37,10 +37,6 @@ TotalMomentum total_momentum(const Nodes& nodes);
 /// Periodic images are not looked at.
 double smallest_particle_spacing(const Scene& scene, double reach);
 
-/// How far the worst particle's centre is behind a plane of the scene, or behind the mid-surface of
-/// a shell that its contact holds it off, [m]; negative or -infinity where none is behind.
-double deepest_penetration(Scene& scene);
-
 /// True where all positions and velocities are finite.
 bool all_finite(const Nodes& nodes);
 

@@ -40,6 +40,10 @@ TEST_CASE("summary: all keys that scripts rely on, with the numbers of the run",
   CHECK(json.at("mass") == 40.0);
   CHECK(json.at("momentum") == std::vector<double>{20, 0, -40});
   CHECK(json.at("peak_memory_bytes") > 1000000);
+  CHECK(json.at("cpu_time").get<double>() > 0);
+  CHECK(json.at("cpu_time_before") == 0);
+  CHECK(json.at("lost_particles") == 0);
+  CHECK(json.at("deepest_penetration").is_null());  // no wall, no contact
   const double wall = json.at("wall_time");
   CHECK(wall >= 10);
   CHECK(wall < 60);

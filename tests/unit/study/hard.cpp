@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "output/stray_particles.hpp"
 #include "study/hard_run.hpp"
 #include "study/hard_watch.hpp"
 #include "study/stability_map.hpp"
