@@ -11,8 +11,10 @@ namespace gannet {
 
 struct RunOptions {
   std::string case_file;
-  std::string out;               ///< output folder; empty: beside the case
-  std::string restart;           ///< checkpoint to go on from; empty: from the start
+  std::string out;      ///< output folder; empty: beside the case
+  std::string restart;  ///< checkpoint to go on from; empty: from the start
+  bool resume = false;  ///< go on from the newest checkpoint in the output folder, else from the
+                        ///< start, over what is there
   std::vector<std::string> set;  ///< "key.path=value"
   int threads = 0;               ///< 0: all cores
   std::string until;             ///< overrides output.until; with unit
@@ -58,6 +60,8 @@ struct StudyOptions {
   int parallel = 0;                  ///< 0: as the file says
   int threads = 0;                   ///< of each run; 0: as the file says
   bool dry = false;                  ///< print the runs only
+  bool collect = false;              ///< make no run, show what is there
+  std::string slurm;                 ///< write the runs as a job array into this folder
 };
 
 /// Runs a case to its end.

@@ -25,7 +25,10 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
   run->add_option("--threads", options.threads, "number of threads (default: all cores)")
       ->check(CLI::Range(1, 1024));
   run->add_option("--until", options.until, "end time, overrides output.until");
-  run->add_option("--restart", options.restart, "go on from this checkpoint");
+  auto* restart = run->add_option("--restart", options.restart, "go on from this checkpoint");
+  run->add_flag("--resume", options.resume,
+                "go on from the newest checkpoint in the output folder; without one, start anew")
+      ->excludes(restart);
   run->add_flag("--force", options.force,
                 "overwrite results; with --restart, accept a changed case");
   run->callback([&] { code = run_command(options); });
@@ -91,7 +94,7 @@ void add_study(CLI::App& app, StudyOptions& options, int& code) {
   CLI::App* study = app.add_subcommand("study", "what accuracy costs: a case with many settings");
   study->add_option("file", options.file, "a study file, or a case")->required();
   study->add_option("--vary", options.vary,
-                    "key=value,value: let.dx=8mm,4mm or effects.xsph=on,off");
+                    "key=value,value: dx=8mm,4mm or xsph=on,off; whole keys, or their ends");
   study->add_option("--set", options.set, "a key in all runs: key.path=value (may be repeated)");
   study->add_option("--measure", options.measure,
                     "KIND:PROBE[:COLUMN][,from=..,until=..,percent=..,shift=..,scale=..,name=..]");
@@ -107,6 +110,9 @@ void add_study(CLI::App& app, StudyOptions& options, int& code) {
   study->add_option("--threads", options.threads, "threads of each run (default: cores / parallel)")
       ->check(CLI::Range(1, 1024));
   study->add_flag("--dry", options.dry, "check and print the runs, make none");
+  study->add_flag("--collect", options.collect, "make no run; show what those that are done say");
+  study->add_option("--slurm", options.slurm,
+                    "make no run; write those that are missing as a Slurm job array into DIR");
   study->callback([&] { code = study_command(options); });
 }
 

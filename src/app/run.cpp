@@ -60,6 +60,15 @@ void move_end(const RunOptions& options, RunRecord& record) {
   record.plan.until = until.value;
 }
 
+/// --resume: the newest checkpoint of the output folder, or a start over what is there.
+RunOptions resumed(RunOptions options) {
+  if (!options.resume) return options;
+  options.restart = newest_checkpoint(options.out.empty() ? default_output_folder(options.case_file)
+                                                          : options.out);
+  if (options.restart.empty()) options.force = true;
+  return options;
+}
+
 void start_or_resume(const RunOptions& options, Simulation& simulation, RunRecord& record) {
   const bool resuming = !options.restart.empty();
   if (resuming) {
@@ -113,7 +122,8 @@ int end_stopped(Simulation& simulation, RunRecord& record, int number) {
 
 }  // namespace
 
-int run_command(const RunOptions& options) {
+int run_command(const RunOptions& asked) {
+  const RunOptions options = resumed(asked);
   set_threads(options.threads);
   const auto simulation = make_simulation(options.case_file, options.set);
   RunRecord& record = simulation->scene.store.get<RunRecord>();

@@ -45,6 +45,7 @@ struct StudyMeasure {
 /// All that a user asks for.
 struct StudySpec {
   std::string case_file;
+  std::string title;  ///< of the case
   std::vector<StudyAxis> axes;
   std::vector<std::string> set;  ///< "key=value" in all runs
   std::vector<StudyMeasure> measures;
@@ -58,6 +59,7 @@ struct StudySpec {
   int parallel = 1;         ///< runs side by side
   int threads = 0;          ///< of each run; 0: cores / parallel
   std::string out;          ///< folder of the results
+  bool collect = false;     ///< make no run
 };
 
 /// How big a run is before it is made.
@@ -74,6 +76,7 @@ struct StudyRunSize {
 struct StudyProgram {
   std::string path = "/proc/self/exe";  ///< what runs a case
   std::string version;                  ///< goes into the hash of each run
+  std::string short_version;            ///< what `gannet --version` says behind its name
   Schema schema;                        ///< the case language
   /// Builds the case and looks; throws InputError.
   std::function<StudyRunSize(const std::string& file, const std::vector<std::string>& set)> size;
@@ -102,6 +105,8 @@ struct StudyRun {
   double element_rate = unknown;
   double memory = unknown;  ///< peak [B]
   double energy_error = unknown;
+  double lost_particles = unknown;       ///< most at one look
+  double deepest_penetration = unknown;  ///< [m]
   std::string version;
 };
 

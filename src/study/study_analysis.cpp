@@ -5,19 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "study/study_history.hpp"
 #include "study/study_prices.hpp"
 
 namespace gannet {
 
-double median_of(std::vector<double> x) {
+double quantile_of(std::vector<double> x, double q) {
   std::erase_if(x, [](double value) { return !std::isfinite(value); });
   if (x.empty()) return unknown;
   std::sort(x.begin(), x.end());
-  const std::size_t n = x.size();
-  return (x[(n - 1) / 2] + x[n / 2]) / 2;
+  const double place = q * static_cast<double>(x.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, x.size() - 1);
+  return std::lerp(x[below], x[above], place - static_cast<double>(below));
 }
+
+double median_of(std::vector<double> x) { return quantile_of(std::move(x), 0.5); }
 
 std::vector<std::size_t> pareto_front(const std::vector<double>& time,
                                       const std::vector<double>& error, std::size_t leave_out) {
@@ -141,6 +146,7 @@ void take_values(const StudyResult& result, const TimeSeries* against, MeasureRe
     value.value = median_of(values);
     value.low = *std::min_element(values.begin(), values.end());
     value.high = *std::max_element(values.begin(), values.end());
+    value.of_runs = values;
   }
 }
 
@@ -167,7 +173,10 @@ void measure_distance(const StudyResult& result, MeasureResult& m) {
   const TimeSeries window = window_of(against, m.measure.from, m.measure.until);
   const double range = distance_of(window, window, 0).range;
   const double scale = m.measure.scale > 0 ? m.measure.scale : range;
-  for (StudyValue& v : m.values) v.error = v.value / scale;
+  for (StudyValue& v : m.values) {
+    v.error = v.value / scale;
+    for (const double value : v.of_runs) v.errors_of_runs.push_back(value / scale);
+  }
 }
 
 double extrapolated(const StudyResult& result, const MeasureResult& m) {
@@ -214,7 +223,11 @@ void measure_number(const StudyResult& result, MeasureResult& m) {
       break;
   }
   if (m.reference == 0) throw std::runtime_error("the reference is 0: no relative error");
-  for (StudyValue& v : m.values) v.error = std::abs(v.value - m.reference) / std::abs(m.reference);
+  const auto error = [&](double x) { return std::abs(x - m.reference) / std::abs(m.reference); };
+  for (StudyValue& v : m.values) {
+    v.error = error(v.value);
+    for (const double value : v.of_runs) v.errors_of_runs.push_back(error(value));
+  }
 }
 
 void fit_series(const StudyResult& result, MeasureResult& m) {

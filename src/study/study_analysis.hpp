@@ -25,10 +25,12 @@ struct StudyPoint {
 
 /// A measure over the repeats of a setting.
 struct StudyValue {
-  double value = unknown;  ///< median
-  double low = unknown;    ///< smallest
-  double high = unknown;   ///< largest
-  double error = unknown;  ///< relative, of the median; 0 at the reference itself
+  double value = unknown;                ///< median
+  double low = unknown;                  ///< smallest
+  double high = unknown;                 ///< largest
+  double error = unknown;                ///< relative, of the median; 0 at the reference itself
+  std::vector<double> of_runs{};         ///< one a run of the point, in the same order
+  std::vector<double> errors_of_runs{};  ///< relative
 };
 
 /// Settings that differ in the refined key only, coarse first.
@@ -87,6 +89,10 @@ std::vector<std::size_t> pareto_front(const std::vector<double>& time,
 
 /// "" or "xsph = off": a setting without the refined key.
 std::string label_without_refined(const StudySpec& spec, const std::vector<std::string>& choices);
+
+/// The q-quantile, 0 <= q <= 1, linear between samples; unknown for none. Unknown values are left
+/// out.
+double quantile_of(std::vector<double> x, double q);
 
 /// Linear between the middle two; unknown for none.
 double median_of(std::vector<double> x);

@@ -44,6 +44,9 @@ std::string values_table(const StudyResult& result, const MeasureResult& m) {
                                     m.measure.name + " [" + (m.unit.empty() ? "1" : m.unit) + "]"};
   const bool repeats = result.spec.repeats > 1;
   if (repeats) names.insert(names.end(), {"smallest", "largest"});
+  for (const int percent : spread_percents) {
+    if (repeats && percent != 50) names.push_back(fmt::format("{} % below", percent));
+  }
   names.insert(names.end(), {"error [%]", "wall time [s]"});
   std::string out = "<div class=\"scroll\"><table>\n" + head_of(names);
   for (std::size_t i = 0; i < result.points.size(); ++i) {
@@ -58,6 +61,10 @@ std::string values_table(const StudyResult& result, const MeasureResult& m) {
                 (i == m.reference_point ? " (the reference)" : ""));
     out += number_cell(v.value, "{:.6g}");
     if (repeats) out += number_cell(v.low, "{:.6g}") + number_cell(v.high, "{:.6g}");
+    for (const int percent : spread_percents) {
+      if (!repeats || percent == 50) continue;
+      out += number_cell(quantile_of(v.of_runs, 0.01 * percent), "{:.6g}");
+    }
     out += number_cell(100 * v.error, "{:.3g}") + number_cell(point.wall, "{:.3g}") + "</tr>\n";
   }
   return out + "</table></div>\n";
@@ -81,23 +88,25 @@ std::string measure_section(const StudyResult& result, const MeasureResult& m) {
       "</p>\n<div class=\"box prices\">\n";
   for (const std::string& sentence : m.sentences) out += "<p>" + xml_text(sentence) + "</p>\n";
   out += "</div>\n<div class=\"pictures\">\n" + work_picture(result, m) +
-         convergence_picture(result, m) + changes_picture(m) + "</div>\n";
+         convergence_picture(result, m) + changes_picture(m) + spread_picture(result, m) +
+         "</div>\n";
   const std::string lines = convergence_lines(m);
   if (!lines.empty()) out += "<div class=\"box\">" + lines + "</div>\n";
   return out + values_table(result, m);
 }
 
 std::string runs_table(const StudyResult& result) {
-  std::string out = "<h2>Runs</h2>\n<div class=\"scroll\"><table>\n" +
-                    head_of({"setting", "run", "state", "predicted [s]", "wall [s]", "CPU [s]",
-                             "particles", "elements", "steps", "particle steps/s",
-                             "element steps/s", "memory [MiB]", "energy error", "version"});
+  std::string out =
+      "<h2>Runs</h2>\n<div class=\"scroll\"><table>\n" +
+      head_of({"setting", "run", "state", "predicted [s]", "wall [s]", "CPU [s]", "particles",
+               "elements", "steps", "particle steps/s", "element steps/s", "memory [MiB]",
+               "energy error", "lost particles", "deepest penetration [m]", "version"});
   for (const StudyRun& run : result.runs) {
     const std::string repeat = result.spec.repeats > 1 ? fmt::format(" #{}", run.repeat + 1) : "";
     out += "<tr>" + cell(setting_text(result.spec.axes, run.choices) + repeat) + cell(run.hash);
     if (run.state != StudyState::done) {
       out +=
-          fmt::format("<td class=\"why\" colspan=\"12\">{}</td></tr>\n",
+          fmt::format("<td class=\"why\" colspan=\"14\">{}</td></tr>\n",
                       xml_text((run.state == StudyState::failed ? "failed: " : "") + run.reason));
       continue;
     }
@@ -107,7 +116,8 @@ std::string runs_table(const StudyResult& result) {
            number_cell(run.steps, "{:.0f}") + number_cell(run.particle_rate, "{:.3g}") +
            number_cell(run.element_rate, "{:.3g}") +
            number_cell(run.memory / (1024 * 1024), "{:.1f}") +
-           number_cell(run.energy_error, "{:.2g}") + cell(run.version) + "</tr>\n";
+           number_cell(run.energy_error, "{:.2g}") + number_cell(run.lost_particles, "{:.0f}") +
+           number_cell(run.deepest_penetration, "{:.2g}") + cell(run.version) + "</tr>\n";
   }
   return out + "</table></div>\n";
 }

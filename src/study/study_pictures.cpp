@@ -111,6 +111,24 @@ std::string work_picture(const StudyResult& result, const MeasureResult& m) {
   return log_plot(plot);
 }
 
+std::string spread_picture(const StudyResult& result, const MeasureResult& m) {
+  std::vector<StripColumn> columns;
+  bool repeated = false;
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const std::vector<double>& values = m.values[i].of_runs;
+    if (values.empty()) continue;
+    repeated = repeated || values.size() > 1;
+    StripColumn column{fmt::format("{}", fmt::join(result.points[i].choices, ", ")), values, {}};
+    for (const int percent : spread_percents) {
+      column.percentiles.push_back(quantile_of(values, 0.01 * percent));
+    }
+    columns.push_back(column);
+  }
+  if (!repeated) return "";
+  return strip_plot(m.measure.name + ": spread over repeats",
+                    m.measure.name + " [" + (m.unit.empty() ? "1" : m.unit) + "]", columns);
+}
+
 std::string changes_picture(const MeasureResult& m) {
   std::vector<BarRow> rows;
   for (const StudyChange& change : m.changes) {

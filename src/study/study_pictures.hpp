@@ -1,6 +1,7 @@
 // The pictures of a study: convergence, work and precision, and what effects change.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "study/study_analysis.hpp"
@@ -13,6 +14,12 @@ std::string convergence_picture(const StudyResult& result, const MeasureResult& 
 
 /// Error against wall time, with the Pareto front.
 std::string work_picture(const StudyResult& result, const MeasureResult& m);
+
+/// Percentiles over the repeats of a setting that are shown and written.
+inline constexpr std::array<int, 5> spread_percents = {10, 25, 50, 75, 90};
+
+/// How the results of the repeats of each setting are distributed. Empty without repeats.
+std::string spread_picture(const StudyResult& result, const MeasureResult& m);
 
 /// What each other value of a key changes in the result and in time. Empty where there is none.
 std::string changes_picture(const MeasureResult& m);

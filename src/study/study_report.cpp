@@ -38,11 +38,17 @@ const char* state_text(StudyState state) {
   return "waiting";
 }
 
-std::size_t point_of(const StudyResult& result, const StudyRun& run) {
+/// Value and error of one run, both unknown where it has none.
+std::pair<double, double> value_of_run(const StudyResult& result, const MeasureResult& m,
+                                       const StudyRun& run) {
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    if (result.points[i].choices == run.choices) return i;
+    const std::vector<std::size_t>& runs = result.points[i].runs;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      if (&result.runs[runs[k]] != &run || k >= m.values[i].errors_of_runs.size()) continue;
+      return {m.values[i].of_runs[k], m.values[i].errors_of_runs[k]};
+    }
   }
-  return no_point;
+  return {unknown, unknown};
 }
 
 }  // namespace
@@ -52,10 +58,10 @@ std::string study_csv(const StudyResult& result) {
   for (const StudyAxis& axis : result.spec.axes) out += "," + csv_cell(axis.key);
   out +=
       ",state,reason,predicted_wall [s],wall [s],cpu [s],particles,elements,steps,"
-      "particle_steps_per_second,element_steps_per_second,peak_memory [B],energy_error,version";
+      "particle_steps_per_second,element_steps_per_second,peak_memory "
+      "[B],energy_error,lost_particles,deepest_penetration [m],version";
   for (const MeasureResult& m : result.measures) {
-    out += "," +
-           csv_cell(fmt::format("{} (median) [{}]", m.measure.name, m.unit.empty() ? "1" : m.unit));
+    out += "," + csv_cell(fmt::format("{} [{}]", m.measure.name, m.unit.empty() ? "1" : m.unit));
     out += "," + csv_cell(m.measure.name + " error");
   }
   out += "\n";
@@ -63,17 +69,15 @@ std::string study_csv(const StudyResult& result) {
     out += fmt::format("{},{}", run.hash, run.repeat + 1);
     for (const std::string& choice : run.choices) out += "," + csv_cell(choice);
     out += fmt::format(",{},{}", state_text(run.state), csv_cell(run.reason));
-    for (const double x :
-         {run.predicted, run.wall, run.cpu, run.size.particles, run.size.elements, run.steps,
-          run.particle_rate, run.element_rate, run.memory, run.energy_error}) {
+    for (const double x : {run.predicted, run.wall, run.cpu, run.size.particles, run.size.elements,
+                           run.steps, run.particle_rate, run.element_rate, run.memory,
+                           run.energy_error, run.lost_particles, run.deepest_penetration}) {
       out += "," + csv_number(x);
     }
     out += "," + csv_cell(run.version);
-    const std::size_t point = point_of(result, run);
     for (const MeasureResult& m : result.measures) {
-      const bool done = run.state == StudyState::done;
-      out += "," + (done ? csv_number(m.values[point].value) : "");
-      out += "," + (done ? csv_number(m.values[point].error) : "");
+      const auto [value, error] = value_of_run(result, m, run);
+      out += "," + csv_number(value) + "," + csv_number(error);
     }
     out += "\n";
   }
@@ -107,6 +111,8 @@ Json run_json(const StudyResult& result, const StudyRun& run) {
           {"element_steps_per_second", number_json(run.element_rate)},
           {"peak_memory_bytes", number_json(run.memory)},
           {"energy_error", number_json(run.energy_error)},
+          {"lost_particles", number_json(run.lost_particles)},
+          {"deepest_penetration", number_json(run.deepest_penetration)},
           {"version", run.version}};
 }
 
@@ -151,6 +157,13 @@ Json measure_json(const StudyResult& result, const MeasureResult& m) {
                               {"smallest", number_json(v.low)},
                               {"largest", number_json(v.high)},
                               {"error", number_json(v.error)}});
+    Json& json_of_value = json["values"].back();
+    if (v.of_runs.size() < 2) continue;
+    json_of_value["of_repeats"] = v.of_runs;
+    for (const int percent : spread_percents) {
+      json_of_value["percentiles"][std::to_string(percent)] =
+          number_json(quantile_of(v.of_runs, 0.01 * percent));
+    }
   }
   json["series"] = Json::array();
   for (const StudySeries& s : m.series) json["series"].push_back(series_json(s));
@@ -241,6 +254,8 @@ void write_study(const StudyResult& result) {
     write_whole_file(out + "/work_" + name, work_picture(result, m));
     const std::string changes = changes_picture(m);
     if (!changes.empty()) write_whole_file(out + "/changes_" + name, changes);
+    const std::string spread = spread_picture(result, m);
+    if (!spread.empty()) write_whole_file(out + "/spread_" + name, spread);
   }
 }
 

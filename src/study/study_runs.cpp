@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +17,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "output/files.hpp"
 #include "output/folder.hpp"
 #include "study/study_plan.hpp"
 
@@ -43,34 +41,13 @@ double number_in(const nlohmann::json& json, const char* key) {
   return json.contains(key) && json[key].is_number() ? json[key].get<double>() : unknown;
 }
 
-std::string cost_file(const StudyRun& run) { return run.folder + ".cost.json"; }
-
 /// A child process that makes a run.
 struct Child {
   pid_t pid = -1;
   std::size_t run = 0;
   Clock::time_point start;
-  double cpu_before = 0;  ///< of attempts that it continues
   bool told_to_stop = false;
 };
-
-std::vector<std::string> arguments_of(const StudySpec& spec, const StudyRun& run) {
-  std::vector<std::string> words = {"gannet", "run", spec.case_file, "--out", run.folder};
-  for (const std::string& set : run.set) {
-    words.emplace_back("--set");
-    words.push_back(set);
-  }
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int threads = spec.threads > 0 ? spec.threads : std::max(1, cores / spec.parallel);
-  words.insert(words.end(), {"--threads", std::to_string(threads)});
-  const std::string checkpoint = newest_checkpoint(run.folder);
-  if (checkpoint.empty()) {
-    words.emplace_back("--force");
-  } else {
-    words.insert(words.end(), {"--restart", checkpoint});
-  }
-  return words;
-}
 
 /// In the child: what it says goes to a log beside its folder, then it becomes the program.
 [[noreturn]] void become(const std::string& program, const std::vector<char*>& words,
@@ -88,12 +65,9 @@ Child start_child(const StudySpec& spec, const StudyProgram& program, const Stud
                   std::size_t number) {
   Child child;
   child.run = number;
-  if (!newest_checkpoint(run.folder).empty()) {
-    const double before = number_in(json_of(cost_file(run)), "cpu");
-    child.cpu_before = before > 0 ? before : 0;
-  }
-  std::vector<std::string> words = arguments_of(spec, run);
-  std::vector<char*> pointers;
+  std::vector<std::string> words = words_of(spec, run);
+  std::string name = "gannet";
+  std::vector<char*> pointers = {name.data()};
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const std::string log = run.folder + ".log";
@@ -115,14 +89,7 @@ std::string last_line(const std::string& file) {
   return last;
 }
 
-void finish_run(const StudyProgram& program, const Child& child, int status, const rusage& usage,
-                StudyRun& run) {
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  const double cpu = child.cpu_before + seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  const nlohmann::json cost = {{"cpu", cpu}, {"version", program.version}, {"set", run.set}};
-  write_whole_file(cost_file(run), cost.dump() + "\n");
+void finish_run(const Child& child, int status, StudyRun& run) {
   read_run(run);
   if (run.state == StudyState::done || run.state == StudyState::failed) return;
   if (child.told_to_stop) {
@@ -190,13 +157,12 @@ struct Driver {
   void collect() {
     for (std::size_t k = 0; k < children.size();) {
       int status = 0;
-      rusage usage{};
-      if (wait4(children[k].pid, &status, WNOHANG, &usage) != children[k].pid) {
+      if (waitpid(children[k].pid, &status, WNOHANG) != children[k].pid) {
         ++k;
         continue;
       }
       StudyRun& run = runs[children[k].run];
-      finish_run(program, children[k], status, usage, run);
+      finish_run(children[k], status, run);
       if (run.state == StudyState::not_run) outcome.out_of_budget = true;
       say_end(spec, run, children[k].run, runs.size());
       children.erase(children.begin() + static_cast<long>(k));
@@ -213,6 +179,21 @@ struct Driver {
 
 }  // namespace
 
+int threads_of(const StudySpec& spec) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return spec.threads > 0 ? spec.threads : std::max(1, cores / spec.parallel);
+}
+
+std::vector<std::string> words_of(const StudySpec& spec, const StudyRun& run) {
+  std::vector<std::string> words = {"run", spec.case_file, "--out", run.folder, "--resume"};
+  for (const std::string& set : run.set) {
+    words.emplace_back("--set");
+    words.push_back(set);
+  }
+  words.insert(words.end(), {"--threads", std::to_string(threads_of(spec))});
+  return words;
+}
+
 void read_run(StudyRun& run) {
   const nlohmann::json summary = json_of(run.folder + "/summary.json");
   if (!summary.is_object()) return;
@@ -227,7 +208,9 @@ void read_run(StudyRun& run) {
   run.memory = number_in(summary, "peak_memory_bytes");
   run.energy_error = number_in(summary, "energy_error");
   run.version = summary.value("version", "");
-  run.cpu = number_in(json_of(cost_file(run)), "cpu");
+  run.cpu = number_in(summary, "cpu_time") + number_in(summary, "cpu_time_before");
+  run.lost_particles = number_in(summary, "lost_particles");
+  run.deepest_penetration = number_in(summary, "deepest_penetration");
 }
 
 StudyOutcome make_runs(const StudySpec& spec, const StudyProgram& program,
@@ -239,7 +222,7 @@ StudyOutcome make_runs(const StudySpec& spec, const StudyProgram& program,
     runs[i].was_there = runs[i].state != StudyState::waiting;
     if (runs[i].was_there) say_end(spec, runs[i], i, runs.size());
   }
-  for (;;) {
+  while (!spec.collect) {
     driver.collect();
     if (stop != 0 || seconds_since(driver.start) > 1.1 * spec.budget + 2) driver.tell_to_stop();
     const bool room = driver.children.size() < static_cast<std::size_t>(spec.parallel);
@@ -250,7 +233,7 @@ StudyOutcome make_runs(const StudySpec& spec, const StudyProgram& program,
   for (StudyRun& run : runs) {
     if (run.state != StudyState::waiting) continue;
     run.state = StudyState::not_run;
-    run.reason = "not run: the study was stopped";
+    run.reason = spec.collect ? "not there yet" : "not run: the study was stopped";
   }
   driver.outcome.stopped = stop != 0;
   driver.outcome.wall = seconds_since(driver.start);

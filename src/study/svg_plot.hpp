@@ -42,6 +42,19 @@ struct BarRow {
 std::string bar_plot(const std::string& title, const std::vector<std::string>& columns,
                      const std::vector<BarRow>& rows);
 
+/// The values of one setting, and five of their percentiles in rising order.
+struct StripColumn {
+  std::string label;
+  std::vector<double> values;
+  std::vector<double> percentiles;
+};
+
+/// A strip of dots a column, with a box between the second and fourth percentile, a line at the
+/// third and whiskers at the first and fifth, on an even axis. Columns without a finite value stay
+/// empty.
+std::string strip_plot(const std::string& title, const std::string& y_label,
+                       const std::vector<StripColumn>& columns);
+
 /// Text that may stand in XML: & < > and quotes written out, control characters left out.
 std::string xml_text(const std::string& text);
 

@@ -19,6 +19,22 @@ TEST_CASE("pictures: well-formed XML whatever the names are", "[study]") {
   CHECK(why_not_well_formed(bar_plot("t & u", {"a", "b"}, {{"<r>", {0.1, -0.2}}})) == "");
 }
 
+TEST_CASE("pictures: a strip shows a dot a repeat, and a box from the percentiles", "[study]") {
+  const std::string svg = strip_plot("a & b", "p [Pa]",
+                                     {{"8 < 9", {10, 20, 30}, {12, 15, 20, 25, 28}},
+                                      {"one alone", {15}, {15, 15, 15, 15, 15}},
+                                      {"none", {}, {}}});
+  CHECK(why_not_well_formed(svg) == "");
+  std::size_t dots = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+       at = svg.find("<circle", at + 1)) {
+    ++dots;
+  }
+  CHECK(dots == 4);
+  CHECK(svg.find("width=\"36\"") == svg.rfind("width=\"36\""));  // one box: no box of one value
+  CHECK(svg.find("nan") == std::string::npos);
+}
+
 TEST_CASE("pictures: the check of well-formedness finds what is wrong", "[study]") {
   CHECK(why_not_well_formed("<a><b></a></b>") != "");
   CHECK(why_not_well_formed("<a>&</a>") != "");

@@ -103,6 +103,52 @@ TEST_CASE("study: three plates give errors that shrink, and all files", "[study]
   CHECK(results(folder.path())["runs"][0]["wall"] == json["runs"][0]["wall"]);
 }
 
+TEST_CASE("study: repeats as distributions", "[study]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/case.yaml") << R"(gannet: 1
+dimension: 2
+let: {dx: 10 mm}
+materials: {water: {card: water, c0: 20 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: dx}
+    fill: {box: {from: [0, 0, 0], to: [0.1 m, 0.1 m, 0]}}
+    start: hydrostatic
+boundaries: {tank: {planes: {x: [0, 0.1 m], y: 0}}}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+probes: {at_floor: {pressure: {at: [50 mm, 10 mm, 0]}}}
+output: {until: 20 ms, history: every 1 ms}
+study:
+  vary: {parts.pool.sph.spacing: [10 mm]}
+  measure: {peak: at_floor}
+  repeats: 3
+  jitter: {part: pool, amount: 0.05}
+)";
+  const std::string out = folder.path() + "/s";
+  const std::string command = std::string(GANNET_PROGRAM) + " study " + folder.path() +
+                              "/case.yaml --threads 1 --out " + out + " > " + folder.path() +
+                              "/log.txt 2>&1";
+  const int code = WEXITSTATUS(std::system(command.c_str()));
+  INFO(text_of(folder.path() + "/log.txt"));
+  REQUIRE(code == 0);
+  const nlohmann::json json = results(folder.path());
+  REQUIRE(json["runs"].size() == 3);
+  CHECK(json["runs"][0]["settings"].contains("parts.pool.sph.spacing"));
+  for (const auto& run : json["runs"]) {
+    CHECK(run["lost_particles"] == 0);
+    CHECK(run["deepest_penetration"].get<double>() < 0.005);  // half a spacing
+  }
+  const auto& value = json["measures"][0]["values"][0];
+  REQUIRE(value["of_repeats"].size() == 3);
+  CHECK(value["percentiles"]["50"] == value["median"]);
+  CHECK(value["percentiles"]["10"].get<double>() < value["percentiles"]["90"].get<double>());
+  CHECK(why_not_well_formed(text_of(out + "/spread_peak_at_floor.svg")) == "");
+  CHECK(why_not_well_formed(text_of(out + "/study.html")) == "");
+  // Each line of the table is one run's own.
+  CHECK_THAT(text_of(out + "/study.csv"),
+             Catch::Contains("energy_error,lost_particles,deepest_penetration [m],version"));
+}
+
 TEST_CASE("study: a budget that is too small is kept and said", "[study]") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() + "/case.yaml") << plate;
