@@ -14,6 +14,7 @@
 #include "input/language.hpp"
 #include "study/hard_run.hpp"
 #include "study/stability_map.hpp"
+#include "study/study_short_keys.hpp"
 
 namespace gannet {
 
@@ -133,7 +134,13 @@ int draw_map(const HardOptions& options) {
   for (const std::string& text : options.maps) {
     axes.push_back(read_map_axis(text));
     const auto* simulation = static_cast<const Simulation*>(standard.owner.get());
-    axes.back().standard = standard_value(simulation->source->root, axes.back().key);
+    const Value& root = simulation->source->root;
+    try {
+      axes.back().key = whole_key(axes.back().key, language(whole_schema()), root);
+    } catch (const std::invalid_argument& e) {
+      refuse(fmt::format("--map {}: {}", text, e.what()));
+    }
+    axes.back().standard = standard_value(root, axes.back().key);
   }
   const StabilityMap map =
       make_stability_map(name, build, axes, options.points, options.steps,

@@ -13,6 +13,7 @@
 #include "app/revision.hpp"
 #include "app/simulation.hpp"
 #include "base/units.hpp"
+#include "input/language.hpp"
 #include "input/resolved.hpp"
 #include "output/folder.hpp"
 #include "study/study_analysis.hpp"
@@ -21,6 +22,8 @@
 #include "study/study_plan.hpp"
 #include "study/study_report.hpp"
 #include "study/study_runs.hpp"
+#include "study/study_short_keys.hpp"
+#include "study/study_slurm.hpp"
 #include "time/step.hpp"
 
 namespace gannet {
@@ -33,11 +36,16 @@ std::atomic<int> study_signal{0};
 
 extern "C" void note_study_signal(int number) { study_signal = number; }
 
+std::string short_version() {
+  const std::string text = revision();
+  return text.empty() ? version() : fmt::format("{} ({})", version(), text);
+}
+
 /// The version, and for a program built from changed files what it is made of: runs of another
 /// build are not taken for this one's.
 std::string version_of_program() {
   const std::string text = revision();
-  std::string full = text.empty() ? version() : fmt::format("{} ({})", version(), text);
+  const std::string full = short_version();
   if (!text.empty() && text.back() != '+') return full;
   std::ifstream stream("/proc/self/exe", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -79,13 +87,22 @@ double seconds_of(const std::string& text) {
 }
 
 /// What the command line says wins over what a file says.
-void apply_options(const StudyOptions& options, StudySpec& spec) {
+void apply_options(const StudyOptions& options, const Case& read, StudySpec& spec) {
+  const Key keys = language(whole_schema());
+  StudySpec asked;
   for (const std::string& text : options.vary) {
-    const StudyAxis axis = read_option("--vary", text, parse_axis);
+    asked.axes.push_back(read_option("--vary", text, parse_axis));
+  }
+  asked.set = options.set;
+  asked.refine = options.refine;
+  complete_keys(keys, read.root, spec);
+  complete_keys(keys, read.root, asked);
+  for (const StudyAxis& axis : asked.axes) {
     std::erase_if(spec.axes, [&](const StudyAxis& a) { return a.key == axis.key; });
     spec.axes.push_back(axis);
   }
-  spec.set.insert(spec.set.end(), options.set.begin(), options.set.end());
+  spec.set.insert(spec.set.end(), asked.set.begin(), asked.set.end());
+  if (!asked.refine.empty()) spec.refine = asked.refine;
   if (!options.measure.empty()) spec.measures.clear();
   for (const std::string& text : options.measure) {
     spec.measures.push_back(read_option("--measure", text, parse_measure));
@@ -94,11 +111,11 @@ void apply_options(const StudyOptions& options, StudySpec& spec) {
     spec.reference = read_option("--reference", options.reference, parse_reference);
   }
   if (!options.budget.empty()) spec.budget = read_option("--budget", options.budget, seconds_of);
-  if (!options.refine.empty()) spec.refine = options.refine;
   if (options.repeats > 0) spec.repeats = options.repeats;
   if (options.parallel > 0) spec.parallel = options.parallel;
   if (options.threads > 0) spec.threads = options.threads;
   spec.out = options.out;
+  spec.collect = options.collect;
   if (spec.out.empty()) {
     const fs::path file = options.file;
     const std::string name = case_name(options.file) + ".study";
@@ -124,7 +141,9 @@ StudySpec spec_of(const StudyOptions& options) {
   const auto read = read_case(options.file, schema);
   StudySpec spec = study_of(*read);
   read->mistakes.throw_if_any();
-  apply_options(options, spec);
+  const auto subject = read_case(spec.case_file, whole_schema());
+  spec.title = subject->title;
+  apply_options(options, *subject, spec);
   check_spec(spec);
   return spec;
 }
@@ -140,18 +159,33 @@ void print_plan(const StudySpec& spec, const std::vector<StudyRun>& runs) {
   }
 }
 
+int write_array(const StudyResult& result, const StudyProgram& program,
+                const StudyOptions& options) {
+  const JobArray array = write_job_array(result.spec, program, result.runs, options.slurm);
+  if (array.n_runs == 0) {
+    fmt::print("all runs are done; no job array was written\n");
+    return 0;
+  }
+  fmt::print("{} runs are to be made: sbatch {}\n", array.n_runs, array.script);
+  fmt::print("the same command with --collect instead of --slurm shows what is done so far\n");
+  return 0;
+}
+
 }  // namespace
 
 int study_command(const StudyOptions& options) {
   StudyResult result;
   result.spec = spec_of(options);
   result.version = version_of_program();
-  const StudyProgram program{
-      .version = result.version, .schema = whole_schema(), .size = size_of_run};
+  const StudyProgram program{.version = result.version,
+                             .short_version = short_version(),
+                             .schema = whole_schema(),
+                             .size = size_of_run};
+  result.title = result.spec.title;
   result.runs = plan_runs(result.spec, program);
-  result.title = read_case(result.spec.case_file, program.schema)->title;
   print_plan(result.spec, result.runs);
   if (options.dry) return 0;
+  if (!options.slurm.empty()) return write_array(result, program, options);
   std::signal(SIGINT, note_study_signal);
   std::signal(SIGTERM, note_study_signal);
   result.outcome = make_runs(result.spec, program, result.runs, study_signal);

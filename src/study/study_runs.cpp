@@ -230,10 +230,12 @@ StudyOutcome make_runs(const StudySpec& spec, const StudyProgram& program,
     if (driver.children.empty()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  for (StudyRun& run : runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    StudyRun& run = runs[i];
     if (run.state != StudyState::waiting) continue;
     run.state = StudyState::not_run;
     run.reason = spec.collect ? "not there yet" : "not run: the study was stopped";
+    if (spec.collect) say_end(spec, run, i, runs.size());
   }
   driver.outcome.stopped = stop != 0;
   driver.outcome.wall = seconds_since(driver.start);

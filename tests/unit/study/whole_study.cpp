@@ -103,7 +103,47 @@ TEST_CASE("study: three plates give errors that shrink, and all files", "[study]
   CHECK(results(folder.path())["runs"][0]["wall"] == json["runs"][0]["wall"]);
 }
 
-TEST_CASE("study: repeats as distributions", "[study]") {
+TEST_CASE("study: the tasks of a job array make the runs that a study then collects", "[study]") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() + "/case.yaml") << plate;
+  // One run is there already: the array holds the two others, coarse ones first.
+  const std::string array = folder.path() + "/job array";
+  REQUIRE(study(folder.path(), "--threads 1").code == 0);
+  const nlohmann::json alone = results(folder.path());
+  const std::string out = folder.path() + "/s";
+  for (const int k : {0, 2}) {
+    fs::remove_all(out + "/runs/" + alone["runs"][k]["hash"].get<std::string>());
+  }
+  const Answer written = study(folder.path(), "--threads 1 --slurm '" + array + "'");
+  INFO(written.text);
+  REQUIRE(written.code == 0);
+  CHECK_THAT(written.text, Catch::Contains("2 runs are to be made"));
+  const std::string script = text_of(array + "/study.sbatch");
+  CHECK_THAT(script, Catch::Contains("#SBATCH --array=1-2\n") &&
+                         Catch::Contains("#SBATCH --cpus-per-task=1\n"));
+
+  const auto task = [&](const std::string& number) {
+    return WEXITSTATUS(std::system(("cd / && SLURM_ARRAY_TASK_ID=" + number + " bash '" + array +
+                                    "/study.sbatch' 2> /dev/null")
+                                       .c_str()));
+  };
+  REQUIRE(task("2") == 0);
+  CHECK(task("3") == 2);  // there is none
+  const Answer half = study(folder.path(), "--threads 1 --collect");
+  CHECK_THAT(half.text, Catch::Contains("not there yet"));
+  CHECK(results(folder.path())["runs"][0]["state"] == "not run");
+  CHECK(results(folder.path())["runs"][2]["state"] == "done");
+  REQUIRE(task("1") == 0);
+  const Answer whole = study(folder.path(), "--threads 1");
+  const nlohmann::json json = results(folder.path());
+  CHECK_THAT(whole.text, Catch::Contains("[3/3]") && Catch::Contains("done before"));
+  CHECK(json["measures"][0]["values"] == alone["measures"][0]["values"]);
+  CHECK(json["runs"][0]["cpu"].get<double>() > 0);
+  CHECK_THAT(study(folder.path(), "--threads 1 --slurm '" + array + "'").text,
+             Catch::Contains("all runs are done"));
+}
+
+TEST_CASE("study: short names of keys, and repeats as distributions", "[study]") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() + "/case.yaml") << R"(gannet: 1
 dimension: 2
@@ -119,7 +159,7 @@ loads: {gravity: [0, -9.81 m/s^2, 0]}
 probes: {at_floor: {pressure: {at: [50 mm, 10 mm, 0]}}}
 output: {until: 20 ms, history: every 1 ms}
 study:
-  vary: {parts.pool.sph.spacing: [10 mm]}
+  vary: {spacing: [10 mm]}
   measure: {peak: at_floor}
   repeats: 3
   jitter: {part: pool, amount: 0.05}
