@@ -161,7 +161,7 @@ int hard_command(const HardOptions& options) {
   if (!options.maps.empty()) return draw_map(options);
   int failed = 0;
   int runs = 0;
-  fmt::print("{:<22} {:<20} {:<7} {:>8} {:>7}  margin of each limit, or what broke\n", "case",
+  fmt::print("{:<22} {:<24} {:<7} {:>8} {:>7}  margin of each limit, or what broke\n", "case",
              "start", "result", "steps", "s");
   for (const std::string& file : chosen_cases(options)) {
     const std::string name = fs::path(file).stem().string();

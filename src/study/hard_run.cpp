@@ -111,7 +111,7 @@ std::string result_line(const std::string& case_name, const HardResult& result) 
   std::string word = result.passed ? "ok" : "FAILED";
   if (result.must_fail && result.passed) word = "breaks";
   const bool say_why = !result.stable || !result.passed;
-  return fmt::format("{:<22} {:<20} {:<7} {:>8} {:>7.1f}  {}", case_name,
+  return fmt::format("{:<22} {:<24} {:<7} {:>8} {:>7.1f}  {}", case_name,
                      result.variant.empty() ? "as written" : result.variant, word, result.steps,
                      result.seconds, say_why ? result.why : margins);
 }
