@@ -18,6 +18,32 @@ Draft draft_parts(const Keys& root, Mistakes& mistakes) {
   return draft;
 }
 
+/// Notes whose the operations and fields are that an effect just added.
+void sign(Simulation& simulation, const std::string& effect) {
+  for (Field& f : simulation.scene.fields) {
+    if (f.effect.empty()) f.effect = effect;
+  }
+  for (Model& model : simulation.models.list) {
+    for (int s = 0; s < n_stages; ++s) {
+      for (Operation& op : model.plan.at(static_cast<Stage>(s))) {
+        if (op.effect.empty()) op.effect = effect;
+      }
+    }
+  }
+}
+
+/// Runs one part of the building for entry k of simulation.memory, whose the results then are.
+template <class F>
+void build_for(Simulation& simulation, std::size_t k, F&& part) {
+  EffectMemory& memory = simulation.memory[k];
+  const std::int64_t before = bytes_in_arrays;
+  const std::size_t n_measures = simulation.scene.measures.size();
+  part();
+  memory.bytes += bytes_in_arrays - before;
+  memory.measures += simulation.scene.measures.size() - n_measures;
+  sign(simulation, memory.effect);
+}
+
 /// Builds scene and plans of a case that was read.
 std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
   auto simulation = std::make_unique<Simulation>();
@@ -25,17 +51,25 @@ std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
   Case& source = *simulation->source;
   const Keys root = source.keys();
   Scene& scene = simulation->scene;
-  assemble(draft_parts(root, source.mistakes), scene);
+  simulation->memory.push_back({"nodes"});
+  for (const Effect& e : effects()) simulation->memory.push_back({e.name});
+  const Draft draft = draft_parts(root, source.mistakes);
+  build_for(*simulation, 0, [&] { assemble(draft, scene); });
+  std::size_t k = 0;
   for (const Effect& e : effects()) {
-    if (e.state != nullptr) e.state(root, scene);
+    ++k;
+    if (e.state != nullptr) build_for(*simulation, k, [&] { e.state(root, scene); });
   }
   source.mistakes.throw_if_any();
   finish_masses(scene);
 
   Model& model = simulation->models.list.emplace_back();
   model.ranges = {{0, scene.nodes.n_owned}};
+  k = 0;
   for (const Effect& e : effects()) {
-    if (e.operations != nullptr) e.operations(root, scene, simulation->models);
+    ++k;
+    if (e.operations == nullptr) continue;
+    build_for(*simulation, k, [&] { e.operations(root, scene, simulation->models); });
   }
   source.mistakes.throw_if_any();
   return simulation;

@@ -1,6 +1,7 @@
 // Aligned arrays, index ranges and the 32-byte node line: the memory that everything lives in.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -20,6 +21,9 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
+/// Bytes that all arrays of the program hold at the moment, counted as they are allocated.
+inline std::atomic<std::int64_t> bytes_in_arrays{0};
+
 /// Allocates on cache-line boundaries, so that vector loads of whole blocks are aligned.
 template <class T>
 struct CacheLineAllocator {
@@ -29,9 +33,14 @@ struct CacheLineAllocator {
   template <class U>
   explicit CacheLineAllocator(const CacheLineAllocator<U>& /*other*/) {}
   [[nodiscard]] T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), alignment));
+    T* p = static_cast<T*>(::operator new(n * sizeof(T), alignment));
+    bytes_in_arrays += static_cast<std::int64_t>(n * sizeof(T));
+    return p;
   }
-  void deallocate(T* p, std::size_t /*n*/) { ::operator delete(p, alignment); }
+  void deallocate(T* p, std::size_t n) {
+    bytes_in_arrays -= static_cast<std::int64_t>(n * sizeof(T));
+    ::operator delete(p, alignment);
+  }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 

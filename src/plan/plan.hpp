@@ -53,7 +53,11 @@ struct Operation {
   std::function<void(const Step&)> run;
   std::function<double()> stable_dt;        ///< optional vote, asked after the force stage [s]
   std::function<std::string()> limited_by;  ///< who casts that vote: part, element, position
-  Stopwatch watch;
+  /// Optional, for `gannet check`: the n smallest of the steps that the vote is the least of, the
+  /// smallest first.
+  std::function<std::vector<Vote>(std::size_t n)> smallest{};
+  std::string effect{};  ///< whose it is, noted when the plan is made
+  Stopwatch watch{};
 };
 
 /// Work of a force at level n [J]: of the half step before the level, and of the half step after.

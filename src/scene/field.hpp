@@ -45,7 +45,8 @@ struct Field {
   Layout layout;
   GhostRule ghosts = GhostRule::none;
   bool checkpoint = true;             ///< false where it is recomputed before it is read
-  std::string owner;                  ///< the effect that owns it
+  std::string owner;                  ///< the effect that owns it, or one thing that it made
+  std::string effect{};               ///< the effect that tracks it, noted when the scene is built
   std::function<std::byte*()> base;   ///< address of entry 0, asked for anew after every growth
   std::function<Index()> count;       ///< number of entries
   std::function<void(Index)> resize;  ///< for particle and node fields: makes room for n entries
