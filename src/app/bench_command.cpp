@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "app/bench_effects.hpp"
 #include "app/commands.hpp"
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
@@ -143,6 +144,9 @@ std::vector<Benchmark> all_benchmarks() {
 
 }  // namespace
 
-int bench_command(const BenchOptions& options) { return run_benchmarks(options, all_benchmarks()); }
+int bench_command(const BenchOptions& options) {
+  if (options.name == "effects") return bench_effects(options);
+  return run_benchmarks(options, all_benchmarks());
+}
 
 }  // namespace gannet

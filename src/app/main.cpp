@@ -40,15 +40,20 @@ void add_looks(CLI::App& app, RunOptions& options, int& code) {
   check->add_option("--threads", options.threads, "threads of the run (default: all cores)")
       ->check(CLI::Range(1, 1024));
   check->callback([&] { code = check_command(options); });
-  CLI::App* explain = app.add_subcommand("explain", "print the plan of a case, with reasons");
+  CLI::App* explain =
+      app.add_subcommand("explain", "print every effect and the plan of a case, with reasons");
   add_case(*explain, options);
+  explain->add_option("--threads", options.threads, "threads of the run (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   explain->callback([&] { code = explain_command(options); });
 }
 
 void add_bench(CLI::App& app, BenchOptions& options, int& code) {
   CLI::App* bench = app.add_subcommand("bench", "measure the rates of kernels on this machine");
-  bench->add_option("name", options.name, "only benchmarks whose name begins so");
+  bench->add_option("name", options.name,
+                    "only benchmarks whose name begins so; effects: what each effect adds");
   bench->add_flag("--json", options.json, "print JSON");
+  bench->add_flag("--prices", options.prices, "bench effects: print lines of the price list");
   bench->add_option("--threads", options.threads, "number of threads (default: 1)");
   bench->callback([&] { code = bench_command(options); });
 }

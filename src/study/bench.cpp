@@ -90,13 +90,17 @@ double median_seconds(int repetitions, const std::function<void()>& f) {
   return times[times.size() / 2];
 }
 
+double fma_rate(int threads) {
+  return 1e-9 * best_rate(threads, 60, [](int) {
+           alignas(64) double sink[128];
+           return GANNET_DISPATCH(burn_fma_f64, 20000, sink);
+         });
+}
+
 MachineLimits measure_machine(int threads) {
   MachineLimits m;
   m.cores = tbb::info::default_concurrency();
-  m.fma_f64_gflops = 1e-9 * best_rate(threads, 60, [](int) {
-                       alignas(64) double sink[128];
-                       return GANNET_DISPATCH(burn_fma_f64, 20000, sink);
-                     });
+  m.fma_f64_gflops = fma_rate(threads);
   m.fma_f32_gflops = 1e-9 * best_rate(threads, 60, [](int) {
                        alignas(64) float sink[256];
                        return GANNET_DISPATCH(burn_fma_f32, 20000, sink);

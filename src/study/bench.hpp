@@ -10,6 +10,7 @@ namespace gannet {
 struct BenchOptions {
   std::string name;  ///< only benchmarks whose name begins so; empty: all
   bool json = false;
+  bool prices = false;  ///< `bench effects`: as lines of the price list
   int threads = 1;
 };
 
@@ -35,6 +36,9 @@ struct BenchResult {
 /// Measures the machine in bursts of a few milliseconds, best of many: FMA rates and memory triad
 /// a = b + s c, on all `threads` at once.
 MachineLimits measure_machine(int threads);
+
+/// The FMA rate alone, in double [GFLOP/s]: a few milliseconds.
+double fma_rate(int threads);
 
 /// Median seconds of `repetitions` calls of f, after one warm-up.
 double median_seconds(int repetitions, const std::function<void()>& f);
