@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "app/commands.hpp"
+#include "app/penetrations.hpp"
+#include "app/run_time.hpp"
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
 #include "output/report.hpp"
@@ -53,38 +55,72 @@ void print_parts(const Scene& scene) {
   }
 }
 
-void print_memory(const Scene& scene) {
-  std::size_t bytes = 0;
-  for (const Field& f : scene.fields) bytes += bytes_of(f);
-  fmt::print("memory: {:.1f} MiB in {} tracked fields\n",
-             static_cast<double>(bytes) / (1024.0 * 1024.0), scene.fields.size());
+double mebibytes(double bytes) { return bytes / (1024.0 * 1024.0); }
+
+void print_memory(const Simulation& simulation) {
+  fmt::print("memory: {:.1f} MiB in arrays, lists and copies included; {} tracked fields\n",
+             mebibytes(static_cast<double>(bytes_in_arrays)), simulation.scene.fields.size());
+}
+
+void print_overlaps(Scene& scene) {
+  for (const StartOverlap& o : start_overlaps(scene)) {
+    if (o.count == 0) {
+      fmt::print("{}: nothing penetrates at the start\n", o.contact);
+    } else {
+      fmt::print("{}: {} penetrations at the start, the deepest {:.4g} m\n", o.contact, o.count,
+                 o.depth);
+    }
+  }
+}
+
+/// The smallest votes of a model, and the smallest of every operation that votes.
+std::vector<Vote> small_votes(const Model& model) {
+  constexpr std::size_t n_smallest = 5;
+  std::vector<Vote> votes;
+  for (int s = 0; s < n_stages; ++s) {
+    for (const Operation& op : model.plan.at(static_cast<Stage>(s))) {
+      if (!op.stable_dt) continue;
+      std::vector<Vote> some;
+      if (op.smallest) some = op.smallest(n_smallest);
+      if (some.empty()) {
+        some.push_back({op.stable_dt(), op.limited_by ? op.limited_by() : op.name});
+      }
+      votes.insert(votes.end(), some.begin(), some.end());
+    }
+  }
+  std::erase_if(votes, [](const Vote& v) { return !std::isfinite(v.dt); });
+  std::stable_sort(votes.begin(), votes.end(),
+                   [](const Vote& a, const Vote& b) { return a.dt < b.dt; });
+  return votes;
 }
 
 void print_steps(Models& models) {
-  evaluate_start(models);
   for (const Model& model : models.list) {
     const Vote vote = smallest_vote(model);
     fmt::print("model {}: time step {:.4g} s at the start, limited by {}\n", model.name, vote.dt,
                vote.who);
+    for (const Vote& v : small_votes(model)) {
+      fmt::print("    {:<12.4g} {}\n", v.dt * model.dt_scale, v.who);
+    }
   }
 }
 
-/// Makes the first steps in memory and says what the whole run would take at that pace.
 void print_run_time(Simulation& simulation) {
-  using Watch = std::chrono::steady_clock;
+  const FirstSteps first = make_first_steps(simulation, 0.5, 3, 500);
+  const RunTime t = estimate_run_time(simulation, first);
   const double until = simulation.scene.store.get<RunRecord>().plan.until;
-  advance(simulation.models);
-  const auto start = Watch::now();
-  int steps = 0;
-  double seconds = 0;
-  while (steps < 5 || (steps < 2000 && seconds < 0.5)) {
-    advance(simulation.models);
-    ++steps;
-    seconds = std::chrono::duration<double>(Watch::now() - start).count();
-  }
-  const double n = std::ceil(until / simulation.models.list.front().step.dt_old);
-  fmt::print("run to {}: about {:.0f} steps, {} on {} threads, at the pace of the first {}\n",
-             time_text(until), n, duration_text(n * seconds / steps), threads(), steps + 1);
+  fmt::print("run to {}: about {} on {} threads\n", time_text(until), duration_text(t.total()),
+             threads());
+  const auto part = [](const char* what, const Priced& p) {
+    if (p.count > 0) {
+      fmt::print("    {:>10.0f} {:<16} {:>10} each, {}\n", p.count, what, time_text(p.seconds),
+                 duration_text(p.total()));
+    }
+  };
+  part("steps", t.steps);
+  part("neighbour lists", t.lists);
+  part("VTK frames", t.frames);
+  part("history lines", t.lines);
 }
 
 }  // namespace
@@ -94,8 +130,10 @@ int check_command(const RunOptions& options) {
   const auto simulation = make_simulation(options.case_file, options.set);
   fmt::print("{}: {}\n", options.case_file, simulation->scene.title);
   print_parts(simulation->scene);
-  print_memory(simulation->scene);
+  evaluate_start(simulation->models);
+  print_overlaps(simulation->scene);
   print_steps(simulation->models);
+  print_memory(*simulation);
   print_run_time(*simulation);
   fmt::print("the case is sound; nothing was written\n");
   return 0;

@@ -1,5 +1,8 @@
 #include "app/effects.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <vector>
 
 #include "body/effects.hpp"
@@ -8,6 +11,7 @@
 #include "mesh/mesh_keys.hpp"
 #include "output/output.hpp"
 #include "sph/effects.hpp"
+#include "sph/sph_state.hpp"
 #include "study/hard_case.hpp"
 #include "study/study_file.hpp"
 #include "time/guards.hpp"
@@ -33,28 +37,42 @@ Schema case_schema() {
             .text = "velocity of the whole part at the start"}}};
 }
 
+/// Walls mirror water without being told; the effect itself adds no operation.
+Effect with_presence(Effect effect) {
+  effect.presence = [](const Keys&, Scene& scene) -> Presence {
+    if (scene.particles.empty()) return {Presence::State::off, "no part is made of particles"};
+    const Halo& halo = scene.store.get<SphState>().halo;
+    const auto n = std::count(halo.wall_low.begin(), halo.wall_low.end(), true) +
+                   std::count(halo.wall_high.begin(), halo.wall_high.end(), true);
+    if (n == 0) return {Presence::State::off, "no plane stands across an axis"};
+    return {Presence::State::automatic,
+            fmt::format("rule: {} planes across an axis mirror the water", n)};
+  };
+  return effect;
+}
+
 std::vector<Effect> make_table() {
   return {
-      leapfrog_effect(),           // first: clears forces, kicks and drifts
-      gravity_effect(),            // says what gravity is before others ask the scene
-      sph_effect(),                //
-      viscosity_effect(),          //
-      xsph_effect(),               //
-      shell_effect(),              //
-      planes_effect(),             //
-      plane_contact_effect(),      //
-      contacts_effect(),           //
-      pressure_effect(),           //
-      nodal_force_effect(),        //
-      periodic_effect(),           // copies out what moved, adds back what ghosts collected
-      mirror_walls_effect(),       // images at walls; adds to what planes measure
-      prescribed_motion_effect(),  // after all forces: measures the reactions
-      probes_effect(),             //
-      sph_probes_effect(),         //
-      guards_effect(),             // after all energies are known
-      study_effect(),              // keys only: what `gannet study` varies and measures
-      hard_effect(),               // keys only: limits that `gannet hard` holds a case to
-      output_effect(),             // last: looks at everything, changes nothing
+      leapfrog_effect(),       // first: clears forces, kicks and drifts
+      gravity_effect(),        // says what gravity is before others ask the scene
+      sph_effect(),            //
+      viscosity_effect(),      //
+      xsph_effect(),           //
+      shell_effect(),          //
+      planes_effect(),         //
+      plane_contact_effect(),  //
+      contacts_effect(),       //
+      pressure_effect(),       //
+      nodal_force_effect(),    //
+      periodic_effect(),       // copies out what moved, adds back what ghosts collected
+      with_presence(mirror_walls_effect()),  // images at walls; adds to what planes measure
+      prescribed_motion_effect(),            // after all forces: measures the reactions
+      probes_effect(),                       //
+      sph_probes_effect(),                   //
+      guards_effect(),                       // after all energies are known
+      study_effect(),                        // keys only: what `gannet study` varies and measures
+      hard_effect(),                         // keys only: limits that `gannet hard` holds a case to
+      output_effect(),                       // last: looks at everything, changes nothing
   };
 }
 

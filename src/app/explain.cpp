@@ -1,10 +1,17 @@
 #include <fmt/format.h>
 
-#include <set>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
-#include "app/effects.hpp"
+#include "app/effect_lines.hpp"
+#include "app/effect_prices.hpp"
+#include "app/effects_csv.hpp"
+#include "app/first_steps.hpp"
 #include "app/simulation.hpp"
+#include "base/parallel.hpp"
+#include "output/report.hpp"
+#include "study/bench.hpp"
 
 namespace gannet {
 
@@ -39,9 +46,55 @@ void print_fields(const Scene& scene) {
     const std::size_t bytes = bytes_of(f);
     total += bytes;
     fmt::print("    {:<28} {:<10} {:>12} B  {}\n", f.name, f.unit.empty() ? "-" : f.unit, bytes,
-               f.owner);
+               f.effect);
   }
   fmt::print("    {:<28} {:<10} {:>12} B\n", "total", "", total);
+}
+
+/// Effects with what they hold and what they take of a step. A pair term counts for the effect that
+/// asks for it, not for the pass that it rides in, which has the effect `sph`.
+void print_effects(Simulation& simulation, const FirstSteps& first) {
+  const std::vector<EffectLine> lines = effect_lines(simulation);
+  std::vector<std::string> present;
+  for (const EffectLine& l : lines) {
+    if (l.presence.state != Presence::State::off) present.push_back(l.name);
+  }
+  const auto prices = term_prices(simulation.scene, present, fma_rate(1));
+  const double step = flowing_step(first);
+  const double particles = simulation.scene.particles.size();
+  double inside = 0;
+  for (const TermPrice& p : prices) inside += 1e-9 * p.ns * particles / threads();
+  fmt::print("effects\n    {:<20} {:<10} {:>7} {:>12}  {}\n", "", "", "share", "bytes", "why");
+  for (const EffectLine& l : lines) {
+    double seconds = l.seconds / first.steps;
+    if (l.name == "sph" && seconds > 0) seconds += step - first.per_step() - inside;
+    for (const TermPrice& p : prices) {
+      if (p.effect == l.name) seconds += 1e-9 * p.ns * particles / threads();
+    }
+    const bool off = l.presence.state == Presence::State::off;
+    fmt::print("    {:<20} {:<10} {:>7} {:>12}  {}\n", l.name, name_of(l.presence.state),
+               off ? "-" : fmt::format("{:.1f} %", 100 * seconds / step), off ? 0 : l.bytes,
+               l.presence.why);
+  }
+  fmt::print(
+      "  share: of a step on {} threads without output, as {} first steps took it in memory "
+      "({} a step)\n",
+      threads(), first.steps, time_text(step));
+  if (first.list_seconds > 0) {
+    fmt::print("  of that, neighbour lists: {} to make them anew, every {} steps as water flows\n",
+               time_text(first.list_seconds), steps_per_list);
+  }
+  for (const TermPrice& p : prices) {
+    fmt::print("  of that, {} inside the pair passes: {:.2f} ns a particle, {:.1f} % ({})\n",
+               p.effect, p.ns, 100e-9 * p.ns * particles / threads() / step, p.source);
+  }
+}
+
+void print_choices(Simulation& simulation) {
+  fmt::print("chosen automatically, by rules alone; the key in front overrides\n");
+  for (const Choice& c : all_choices(simulation)) {
+    fmt::print("    {} = {}: {}\n", c.key, c.chosen, c.rule);
+  }
 }
 
 void print_defaults(const Value& map) {
@@ -57,8 +110,12 @@ void print_defaults(const Value& map) {
 }  // namespace
 
 int explain_command(const RunOptions& options) {
+  set_threads(options.threads);
   const auto simulation = make_simulation(options.case_file, options.set);
+  const FirstSteps first = make_first_steps(*simulation, 0.5, 3, FirstShares::steps);
   fmt::print("{}\n", simulation->scene.title);
+  print_effects(*simulation, first);
+  print_choices(*simulation);
   for (const Model& model : simulation->models.list) print_plan(model);
   print_fields(simulation->scene);
   fmt::print("defaults taken\n");

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/commands.hpp"
+#include "app/effects_csv.hpp"
 #include "app/revision.hpp"
 #include "app/simulation.hpp"
 #include "base/isa.hpp"
@@ -82,13 +83,14 @@ void start_or_resume(const RunOptions& options, Simulation& simulation, RunRecor
 }
 
 /// Steps until output has looked at the end, or a signal asks to stop. Returns the signal or 0.
-int step_to_end(Simulation& simulation, RunRecord& record, Progress& progress) {
+int step_to_end(Simulation& simulation, RunRecord& record, Progress& progress, FirstShares& first) {
   Scene& scene = simulation.scene;
   Models& models = simulation.models;
   while (!record.output.finished) {
     if (signal_seen != 0) return signal_seen;
     if (checkpoint_due(models, record)) write_next_checkpoint(scene, models, record);
     advance(models);
+    first.note(models);
     for (const std::string& warning : scene.warnings) {
       progress.finish();
       fmt::print(stderr, "warning: {}\n", warning);
@@ -99,24 +101,27 @@ int step_to_end(Simulation& simulation, RunRecord& record, Progress& progress) {
   return 0;
 }
 
-int end_stopped(Simulation& simulation, RunRecord& record, int number) {
+int end_stopped(Simulation& simulation, RunRecord& record, const FirstShares& first, int number) {
   const std::string path = write_next_checkpoint(simulation.scene, simulation.models, record);
   record.status = "stopped";
   record.exit_reason = fmt::format("signal {}", number);
   write_summary(simulation.scene, simulation.models, record);
+  write_effects_csv(simulation, first);
   fmt::print(stderr, "stopped by a signal; go on with: gannet run {} --restart {}\n",
              record.case_file, path);
   return 130;
 }
 
 /// After a guard tripped: says what is left, writes the summary, passes the error on.
-[[noreturn]] void end_failed(Simulation& simulation, RunRecord& record, const RunError& error) {
+[[noreturn]] void end_failed(Simulation& simulation, RunRecord& record, const FirstShares& first,
+                             const RunError& error) {
   RunFailure failure = error.failure();
   failure.why += fmt::format("; last good output: {}", last_output(record));
   record.status = "failed";
   record.exit_reason = failure.what;
   write_frame(simulation.scene, simulation.models, record);
   write_summary(simulation.scene, simulation.models, record);
+  write_effects_csv(simulation, first);
   throw RunError(failure);
 }
 
@@ -137,18 +142,20 @@ int run_command(const RunOptions& asked) {
              record.instruction_set, record.folder);
   begin_run(record, simulation->models);
   Progress progress(stderr);
+  FirstShares first;
   int stopped = 0;
   try {
-    stopped = step_to_end(*simulation, record, progress);
+    stopped = step_to_end(*simulation, record, progress, first);
   } catch (const RunError& error) {
     progress.finish();
-    end_failed(*simulation, record, error);
+    end_failed(*simulation, record, first, error);
   }
   progress.finish();
-  if (stopped != 0) return end_stopped(*simulation, record, stopped);
+  if (stopped != 0) return end_stopped(*simulation, record, first, stopped);
   record.status = "completed";
   record.exit_reason = "reached the end time";
   write_summary(simulation->scene, simulation->models, record);
+  write_effects_csv(*simulation, first);
   fmt::print("{}", report(simulation->scene, simulation->models, record));
   return 0;
 }

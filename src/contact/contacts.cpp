@@ -156,6 +156,17 @@ void make_nodes_on_planes(Scene& scene, const Keys& keys, const Sides& sides) {
                               for (const PlaneSums& s : c.sums) sum -= s.force;
                               for (int k = 0; k < 3; ++k) out[k] = sum[k];
                             }});
+  // Offsets shrink as nodes move out: at the first level they are the penetrations of the start.
+  scene.measures.push_back(
+      {prefix + "overlaps", "1", {"value"}, [&c](double* out) {
+         *out = static_cast<double>(
+             std::count_if(c.offset.begin(), c.offset.end(), [](double d) { return d > 0; }));
+       }});
+  scene.measures.push_back({prefix + "overlap_depth", "m", {"value"}, [&c](double* out) {
+                              *out = c.offset.empty()
+                                         ? 0
+                                         : *std::max_element(c.offset.begin(), c.offset.end());
+                            }});
 }
 
 void state(const Keys& root, Scene& scene) {
@@ -237,10 +248,31 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+/// Contact distances, where the case leaves them open.
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  const auto add = [&](const std::string& name, double distance, const char* rule) {
+    const Keys keys = root.map("contacts").map(name);
+    if (keys.given("thickness")) return;
+    list.push_back({keys.path() + ".thickness", fmt::format("{:.4g} m", distance), rule});
+  };
+  for (const NodeToSegment& c : scene.store.get<NodeToSegments>().list) {
+    add(c.name, c.range.contact, "half the shell's thickness and half the particle spacing");
+  }
+  for (const NodesOnPlanes& c : scene.store.get<NodesOnPlanesList>().list) {
+    add(c.name, c.law.distance, "half the shell's thickness");
+  }
+  return list;
+}
+
 }  // namespace
 
 Effect contacts_effect() {
-  return {.name = "contacts", .schema = schema, .state = state, .operations = operations};
+  return {.name = "contacts",
+          .schema = schema,
+          .state = state,
+          .operations = operations,
+          .choices = choices};
 }
 
 }  // namespace gannet

@@ -149,17 +149,25 @@ void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
   }
 }
 
+namespace {
+
+ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque, double dt) {
+  return {.constants = &block.constants,
+          .layout = block.layout,
+          .x = &nodes.x.data()->x,
+          .v = &nodes.v.data()->x,
+          .omega = &nodes.omega.data()->x,
+          .f = &f->x,
+          .torque = &torque->x,
+          .corners = block.corners.data(),
+          .state = block.state.data(),
+          .dt = dt};
+}
+
+}  // namespace
+
 ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
-  const ShellPass pass{.constants = &block.constants,
-                       .layout = block.layout,
-                       .x = &nodes.x.data()->x,
-                       .v = &nodes.v.data()->x,
-                       .omega = &nodes.omega.data()->x,
-                       .f = &nodes.f.data()->x,
-                       .torque = &nodes.torque.data()->x,
-                       .corners = block.corners.data(),
-                       .state = block.state.data(),
-                       .dt = dt_old};
+  const ShellPass pass = pass_over(block, nodes, nodes.f.data(), nodes.torque.data(), dt_old);
   for (const std::vector<Index>& colour : block.colouring.colours) {
     parallel_for(static_cast<Index>(colour.size()), 1, [&](Index begin, Index end) {
       for (Index k = begin; k < end; ++k) {
@@ -183,6 +191,33 @@ ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
 
 double stable_step(const ShellBlock& block) {
   return block.section.dt_factor * 2 / std::sqrt(block.omega2);
+}
+
+std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes,
+                                        std::size_t n) {
+  ShellBlock copy = block;
+  Array<Line> f = nodes.f;
+  Array<Line> torque = nodes.torque;
+  const ShellPass pass = pass_over(copy, nodes, f.data(), torque.data(), 0);
+  // An element without thickness has no vote: whoever led a block of 8 is taken out of it.
+  const auto leader = [&](Index b) {
+    ShellSums sums;
+    GANNET_DISPATCH(shell_force, pass, b, b + 1, sums);
+    return sums;
+  };
+  std::vector<ShellSums> first;
+  for (Index b = 0; b < copy.n_blocks(); ++b) first.push_back(leader(b));
+  std::vector<ElementStep> steps;
+  while (steps.size() < n) {
+    const auto top = std::max_element(first.begin(), first.end(), [](const auto& a, const auto& b) {
+      return a.omega2 < b.omega2;
+    });
+    if (top == first.end() || !(top->omega2 > 0)) break;
+    steps.push_back({block.section.dt_factor * 2 / std::sqrt(top->omega2), top->element});
+    copy.value(top->element, copy.layout.thickness()) = 0;
+    *top = leader(static_cast<Index>(top - first.begin()));
+  }
+  return steps;
 }
 
 void show_stress(ShellBlock& block, std::span<const Line> x) {

@@ -93,6 +93,16 @@ ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set = i
 /// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound.
 double stable_step(const ShellBlock& block);
 
+/// An element and the step that it allows.
+struct ElementStep {
+  double dt = 0;  ///< [s]
+  Index element = -1;
+};
+
+/// The n elements that allow the smallest steps in the state at hand, the smallest first, as a pass
+/// without motion finds them. Changes nothing; for a look, not for each step.
+std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes, std::size_t n);
+
 /// Fills stress_shown from the state: global xx, yy, zz, xy, yz, xz at the middle surface (the
 /// point there, or the mean of the two nearest), in the frame at positions x [m].
 void show_stress(ShellBlock& block, std::span<const Line> x);

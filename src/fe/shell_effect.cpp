@@ -199,16 +199,39 @@ void state(const Keys& root, Scene& scene) {
 }
 
 /// "panel: element 1207 at (0.1, 0.2, 0)"
-std::string limiting_element(const Scene& scene, const ShellBlock& block) {
-  if (block.limiting < 0) return block.name;
+std::string text_of_element(const Scene& scene, const ShellBlock& block, Index element) {
+  if (element < 0) return block.name;
   const Part& part = scene.parts[static_cast<std::size_t>(block.part)];
-  const auto e = static_cast<std::size_t>(block.limiting);
+  const auto e = static_cast<std::size_t>(element);
   Vec3 centre = Vec3::Zero();
   for (std::size_t a = 0; a < 4; ++a) {
     centre += 0.25 * xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[4 * e + a])]);
   }
   return fmt::format("{}: element {} at ({:.4g}, {:.4g}, {:.4g})", block.name, part.cell_id[e],
                      centre.x(), centre.y(), centre.z());
+}
+
+std::vector<Vote> smallest_votes(const Scene& scene, const ShellBlock& block, std::size_t n) {
+  std::vector<Vote> votes;
+  for (const ElementStep& s : smallest_steps(block, scene.nodes, n)) {
+    votes.push_back({s.dt, text_of_element(scene, block, s.element)});
+  }
+  return votes;
+}
+
+/// Points through the thickness, where the case leaves them open.
+std::vector<Choice> choices(const Keys& root, Scene&) {
+  std::vector<Choice> list;
+  for (const Keys& part : shell_parts(root)) {
+    const Keys shell = part.map("shell");
+    if (shell.has("points")) continue;
+    const bool plastic =
+        read_elastic_plastic(root.map("materials").map(shell.word("material"))).plastic();
+    list.push_back({shell.path() + ".points", plastic ? "5" : "3",
+                    fmt::format("5 points where the material may yield, else 3; '{}' {}",
+                                shell.word("material"), plastic ? "may" : "may not")});
+  }
+  return list;
 }
 
 void operations(const Keys& root, Scene& scene, Models& models) {
@@ -236,7 +259,10 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                    .owns = {block.name + ".state"},
                    .run = pass,
                    .stable_dt = [&block] { return stable_step(block); },
-                   .limited_by = [&scene, &block] { return limiting_element(scene, block); }});
+                   .limited_by = [&scene,
+                                  &block] { return text_of_element(scene, block, block.limiting); },
+                   .smallest = [&scene, &block](
+                                   std::size_t n) { return smallest_votes(scene, block, n); }});
   }
 }
 
@@ -247,7 +273,8 @@ Effect shell_effect() {
           .schema = schema,
           .parts = add_parts,
           .state = state,
-          .operations = operations};
+          .operations = operations,
+          .choices = choices};
 }
 
 }  // namespace gannet

@@ -47,7 +47,7 @@ void remove_temporaries(const fs::path& folder) {
 void remove_results(const fs::path& folder) {
   remove_files(folder, [](const fs::path& file) {
     return file.extension() == ".pvd" || file.filename() == "summary.json" ||
-           checkpoint_number(file.filename().string()) >= 0;
+           file.filename() == "effects.csv" || checkpoint_number(file.filename().string()) >= 0;
   });
   remove_files(folder / "vtk", [](const fs::path& file) {
     return file.extension() == ".vtp" || file.extension() == ".vtu";

@@ -158,10 +158,29 @@ void output_operations(const Keys& root, Scene& scene, Models& models) {
        }});
 }
 
+/// Intervals of frames and histories, where the case leaves them open.
+std::vector<Choice> output_choices(const Keys& root, Scene& scene) {
+  const OutputPlan& plan = scene.store.get<RunRecord>().plan;
+  const Keys keys = root.map("output");
+  std::vector<Choice> list;
+  if (!keys.given("vtk")) {
+    list.push_back({"output.vtk", "every " + time_text(plan.vtk.interval),
+                    fmt::format("{} frames over the run", default_frames)});
+  }
+  if (!keys.given("history")) {
+    list.push_back({"output.history", "every " + time_text(plan.history.interval),
+                    fmt::format("{} lines over the run", default_lines)});
+  }
+  return list;
+}
+
 }  // namespace
 
 Effect output_effect() {
-  return {.name = "output", .schema = output_schema, .operations = output_operations};
+  return {.name = "output",
+          .schema = output_schema,
+          .operations = output_operations,
+          .choices = output_choices};
 }
 
 std::string last_output(const RunRecord& record) {

@@ -1,8 +1,10 @@
 """What scripts rely on: exit codes, the output folder, summary.json.  program.py GANNET"""
 
+import csv
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -97,9 +99,43 @@ class Program(unittest.TestCase):
         self.assertIn("centre of gravity", check.stdout)
         explain = gannet("explain", "cases/plate_step_pressure/case.yaml")
         self.assertIn("asked for at cases/plate_step_pressure/case.yaml:", explain.stdout)
-        # What the case does not ask for is not there.
+        # What the case does not ask for is off, and not in the plan.
+        self.assertRegex(explain.stdout, r"xsph +off +- +0 +the case has no effects.xsph")
+        self.assertRegex(explain.stdout, r"shell +on +[0-9.]+ % +[1-9][0-9]* +asked for at ")
         for word in ["particle", "XSPH", "viscosity", "contact"]:
-            self.assertNotIn(word, explain.stdout.split("defaults taken")[0])
+            plan = explain.stdout.split("model main: the operations")[1]
+            self.assertNotIn(word, plan.split("defaults taken")[0])
+
+    def test_effects_csv_holds_every_operation_and_the_price_of_pair_terms(self):
+        words = ["cases/dam_break_2d/case.yaml", "--set", "let.dx=a/10", "--threads", "1"]
+        run = gannet("run", *words, "--until", "30 ms", "--out", str(self.out))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.out / "effects.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        operations = [r for r in rows if r["kind"] == "operation"]
+        self.assertEqual([r["name"] for r in operations],
+                         [o["name"] for o in self.summary()["operations"]])
+        self.assertLess(sum(float(r["share"]) for r in operations), 1.0)
+        self.assertAlmostEqual(sum(float(r["predicted_share"]) for r in operations), 1, places=3)
+        terms = {r["effect"]: r for r in rows if r["kind"] == "pair term"}
+        self.assertLessEqual({"viscosity", "xsph"}, set(terms))
+        for term in terms.values():
+            self.assertGreaterEqual(float(term["price_ns"]), 0)
+            self.assertIn("bench effects", term["price_source"])
+
+    def test_check_foretells_the_wall_time(self):
+        """Within a factor of 3 here, for the machine may be busy now and not then; a factor of 2
+        on a quiet one (docs/output.md)."""
+        words = ["cases/dam_break_2d/case.yaml", "--set", "let.dx=a/20", "--threads", "1",
+                 "--set", "output.until=200 ms"]
+        check = gannet("check", *words)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        foretold = float(re.search(r"run to 200 ms: about ([0-9.]+) s", check.stdout).group(1))
+        run = gannet("run", *words, "--out", str(self.out))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        true = self.summary()["wall_time"]
+        self.assertLess(foretold, 3 * true)
+        self.assertGreater(foretold, true / 3)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,236 @@
+// What `gannet explain`, `gannet check` and effects.csv say of a case.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/effect_lines.hpp"
+#include "app/effect_prices.hpp"
+#include "app/effects.hpp"
+#include "app/effects_csv.hpp"
+#include "app/first_steps.hpp"
+#include "app/penetrations.hpp"
+#include "app/run_time.hpp"
+#include "output/run_record.hpp"
+#include "time/step.hpp"
+
+using namespace gannet;
+using State = Presence::State;
+
+namespace {
+
+const std::string drop = R"(gannet: 1
+materials: {water: {card: water, c0: 20 m/s}}
+parts: {drop: {sph: {material: water, spacing: 10 mm}, fill: {box: {from: [0, 0, 0], to: [40 mm, 40 mm, 40 mm]}}}}
+output: {until: 1 ms, vtk: never, history: never, checkpoint: never}
+)";
+
+const std::string slam = R"(gannet: 1
+materials: {water: {card: water, c0: auto, expected_speed: 3 m/s}, skin: {card: al_6061_t6}, steel: {card: steel}}
+parts:
+  pool: {sph: {material: water, spacing: 10 mm}, fill: {box: {from: [0, 0, 0], to: [100 mm, 100 mm, 40 mm]}}}
+  panel: {shell: {material: skin, thickness: 2 mm}, shape: {plate: {size: [80 mm, 80 mm], elements: [4, 4], lowest_point: [10 mm, 10 mm, 37 mm]}}}
+boundaries: {basin: {planes: {z: 2 mm, x: [0, 100 mm]}}}
+contacts: {touch: {between: [pool, panel]}}
+output: {until: 10 ms, checkpoint: never}
+)";
+
+Presence presence(Simulation& simulation, const std::string& name) {
+  for (const EffectLine& l : effect_lines(simulation)) {
+    if (l.name == name) return l.presence;
+  }
+  FAIL("no line for " + name);
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("explain: every effect of the table has a line with a reason, in its order", "[app]") {
+  const auto simulation = make_simulation_of_text(drop);
+  const auto lines = effect_lines(*simulation);
+  REQUIRE(lines.size() == effects().size() + 1);
+  CHECK(lines[0].name == "nodes");
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    CHECK(lines[k].name == effects()[k - 1].name);
+    INFO(lines[k].name);
+    CHECK(!lines[k].presence.why.empty());
+    if (lines[k].presence.state == State::off) CHECK(lines[k].bytes == 0);
+  }
+}
+
+TEST_CASE("explain: on with key and place, automatic with the rule, off with the key to write",
+          "[app]") {
+  const auto plain = make_simulation_of_text(drop);
+  CHECK(presence(*plain, "xsph").state == State::off);
+  CHECK(presence(*plain, "xsph").why == "the case has no effects.xsph");
+  CHECK(presence(*plain, "shell").why == "the case has no parts.*.shell");
+  CHECK(presence(*plain, "sph").state == State::on);
+  CHECK(presence(*plain, "sph").why == "asked for at case.yaml:3:16");
+  CHECK(presence(*plain, "guards").state == State::automatic);
+
+  const auto with =
+      make_simulation_of_text(drop + "effects: {viscosity: {alpha: 0}, xsph: {epsilon: 0.5}}\n");
+  CHECK(presence(*with, "xsph").why == "asked for at case.yaml:5:34");
+  CHECK(presence(*with, "viscosity").state == State::off);
+  CHECK(presence(*with, "viscosity").why ==
+        "effects.viscosity at case.yaml:5:11 leaves it without effect");
+
+  const auto tank = make_simulation_of_text(slam);
+  CHECK(presence(*tank, "planes").why == "boundaries.basin.planes at case.yaml:6:22");
+  CHECK(presence(*tank, "planes").state == State::on);
+  CHECK(presence(*tank, "contacts").state == State::on);
+}
+
+TEST_CASE("explain: an effect may say itself whether it is on", "[app]") {
+  const auto simulation = make_simulation_of_text(drop);
+  const Effect effect{.name = "xsph", .presence = [](const Keys&, Scene&) -> Presence {
+                        return {State::automatic, "rule: 7 of 8"};
+                      }};
+  CHECK(presence_of(effect, *simulation).state == State::automatic);
+  CHECK(presence_of(effect, *simulation).why == "rule: 7 of 8");
+}
+
+TEST_CASE("explain: what the case leaves open is named with its value, rule and key", "[app]") {
+  const auto value = [](const std::string& text, const std::string& key) -> std::string {
+    const auto simulation = make_simulation_of_text(text);
+    for (const Choice& c : all_choices(*simulation)) {
+      CHECK(!c.rule.empty());
+      if (c.key == key) return c.chosen;
+    }
+    return "";
+  };
+  CHECK(value(slam, "materials.water.c0") == "30 m/s");  // 10 times 3 m/s
+  CHECK(value(slam, "parts.panel.shell.points") == "5");
+  CHECK(value(slam, "contacts.touch.thickness") == "0.006 m");  // (2 mm + 10 mm) / 2
+  CHECK(value(slam, "output.vtk") == "every 200 us");
+  CHECK(value(slam, "--threads") != "");
+  CHECK(value(drop, "materials.water.c0") == "");  // given
+  CHECK(value(drop, "output.vtk") == "");
+}
+
+TEST_CASE("effects.csv: shares of operations, sums of effects, prices of pair terms", "[app]") {
+  const auto simulation = make_simulation_of_text(drop + "effects: {xsph: {epsilon: 0.5}}\n");
+  FirstShares first;
+  for (int k = 0; k < FirstShares::steps + 1; ++k) {
+    CHECK(first.shares().empty());
+    advance(simulation->models);
+    first.note(simulation->models);
+  }
+  double sum = 0;
+  for (const double s : first.shares()) sum += s;
+  CHECK(sum == Approx(1).epsilon(1e-12));
+
+  // Wall time 2 s, 3 s for the operation "drift": the table divides, and asks nobody else.
+  for (Operation& op : simulation->models.list.front().plan.at(Stage::drift)) {
+    op.watch.seconds = op.name == "drift" ? 0.5 : 0.25;
+  }
+  std::istringstream table(effects_table(*simulation, first, {{"xsph", 4, "a, list"}}, 2, 1e8));
+  std::string line;
+  std::getline(table, line);
+  CHECK(line ==
+        "kind,effect,model,stage,name,calls,seconds,share,predicted_share,price_ns,price_source");
+  std::vector<std::string> lines;
+  while (std::getline(table, line)) lines.push_back(line);
+  const auto begins = [&](const std::string& text) {
+    return std::count_if(lines.begin(), lines.end(),
+                         [&](const std::string& l) { return l.starts_with(text); });
+  };
+  CHECK(begins("operation,leapfrog,main,drift,drift,21,0.500000,0.25000,") == 1);
+  CHECK(begins("operation,xsph,main,drift,XSPH drift,21,0.250000,0.12500,") == 1);
+  CHECK(begins("effect,xsph,,,xsph,,0.250000,0.12500,") == 1);
+  CHECK(begins("effect,viscosity") == 0);
+  REQUIRE(begins("pair term,xsph,") == 1);
+  CHECK(lines.back().ends_with(",4.000,\"a, list\""));
+}
+
+TEST_CASE("prices: every effect in the list is one of the table, on both instruction sets",
+          "[app]") {
+  REQUIRE(!effect_prices().empty());
+  for (const EffectPrice& p : effect_prices()) {
+    INFO(p.effect);
+    CHECK(std::any_of(effects().begin(), effects().end(),
+                      [&](const Effect& e) { return e.name == p.effect; }));
+    CHECK(p.ratio > 0.5);
+    CHECK(p.fma > 0);
+  }
+}
+
+TEST_CASE("prices: scaled by the machine's rate, effects without a price left out", "[app]") {
+  const auto simulation = make_simulation_of_text(drop + "effects: {xsph: {epsilon: 0.5}}\n");
+  const auto slow = term_prices(simulation->scene, {"xsph", "guards"}, 10);
+  const auto fast = term_prices(simulation->scene, {"xsph"}, 40);
+  REQUIRE(slow.size() == 1);
+  REQUIRE(fast.size() == 1);
+  CHECK(slow[0].effect == "xsph");
+  CHECK(slow[0].ns == Approx(4 * fast[0].ns));
+  CHECK(slow[0].ns > 0);
+}
+
+TEST_CASE("check: a run's time is the sum of what happens in it", "[app]") {
+  const RunTime t{{1000, 2e-3}, {50, 10e-3}, {20, 0.1}, {400, 1e-3}};
+  CHECK(t.total() == Approx(2 + 0.5 + 2 + 0.4));
+
+  const auto simulation = make_simulation_of_text(slam);
+  const FirstSteps first = make_first_steps(*simulation, 0, 3, 3);
+  CHECK(first.steps == 3);
+  CHECK(first.list_seconds > 0);
+  CHECK(flowing_step(first) == Approx(first.seconds / 3 + first.list_seconds / steps_per_list));
+  const RunTime run = estimate_run_time(*simulation, first);
+  CHECK(run.frames.count == 51);
+  CHECK(run.frames.seconds > 0);
+  const double dt = simulation->models.list.front().step.dt_old;
+  CHECK(run.steps.count == std::ceil(10e-3 / dt));
+  CHECK(run.lines.count == std::min(1001.0, run.steps.count));
+  CHECK(simulation->scene.store.get<RunRecord>().folder.empty());
+}
+
+TEST_CASE("check: penetrations at the start are counted and the deepest is named", "[app]") {
+  const auto simulation = make_simulation_of_text(slam);
+  evaluate_start(simulation->models);
+  const auto overlaps = start_overlaps(simulation->scene);
+  const auto of = [&](const std::string& name) {
+    for (const StartOverlap& o : overlaps) {
+      if (o.contact == name) return o;
+    }
+    FAIL("no " + name);
+    return StartOverlap{};
+  };
+  // The highest particles stand at 35 mm, 2 mm below the panel; contact begins at 6 mm.
+  CHECK(of("contact touch").count > 0);
+  CHECK(of("contact touch").depth == Approx(4e-3));
+  // The lowest 100 particles stand 3 mm over a plane that they should be 5 mm from.
+  CHECK(of("plane basin.z_min").count == 100);
+  CHECK(of("plane basin.z_min").depth == Approx(2e-3));
+  CHECK(of("plane basin.x_min").count == 0);
+}
+
+TEST_CASE("check: the elements that allow the smallest steps, in order", "[app]") {
+  const auto simulation = make_simulation_of_text(R"(gannet: 1
+materials: {steel: {card: steel}}
+parts: {sheet: {shell: {material: steel, thickness: 1 mm}, shape: {plate: {size: [40 mm, 40 mm], elements: [4, 4]}}}}
+output: {until: 1 ms, vtk: never, history: never, checkpoint: never}
+)");
+  // Moving one node into its element makes the elements around it the ones with the smallest steps.
+  Nodes& nodes = simulation->scene.nodes;
+  for (Index i = 0; i < nodes.n_owned; ++i) {
+    if (std::abs(nodes.x[i].x) < 1e-9 && std::abs(nodes.x[i].y) < 1e-9) nodes.x[i].x = 4e-3;
+  }
+  evaluate_start(simulation->models);
+  const Vote smallest = smallest_vote(simulation->models.list.front());
+  for (const Operation& op : simulation->models.list.front().plan.at(Stage::force)) {
+    if (!op.smallest) continue;
+    const std::vector<Vote> votes = op.smallest(16);
+    REQUIRE(votes.size() == 16);
+    CHECK(votes[0].dt == Approx(smallest.dt).epsilon(1e-12));
+    CHECK(votes[0].who == smallest.who);
+    CHECK(std::is_sorted(votes.begin(), votes.end(),
+                         [](const Vote& a, const Vote& b) { return a.dt < b.dt; }));
+    std::vector<std::string> names;
+    for (const Vote& v : votes) names.push_back(v.who);
+    std::sort(names.begin(), names.end());
+    CHECK(std::unique(names.begin(), names.end()) == names.end());
+    CHECK(op.smallest(3).size() == 3);
+  }
+}
