@@ -53,11 +53,18 @@ Effect with_presence(Effect effect) {
 
 std::vector<Effect> make_table() {
   return {
-      leapfrog_effect(),       // first: clears forces, kicks and drifts
-      gravity_effect(),        // says what gravity is before others ask the scene
-      sph_effect(),            //
-      viscosity_effect(),      //
-      xsph_effect(),           //
+      leapfrog_effect(),   // first: clears forces, kicks and drifts
+      gravity_effect(),    // says what gravity is before others ask the scene
+      sph_effect(),        //
+      viscosity_effect(),  //
+      laminar_viscosity_effect(),
+      tensile_cure_effect(),
+      density_diffusion_effect(),
+      corrected_gradients_effect(),
+      xsph_effect(),
+      free_surface_effect(),
+      shifting_effect(),  // after XSPH: both move particles in the drift
+      renormalisation_effect(),
       shell_effect(),          //
       planes_effect(),         //
       plane_contact_effect(),  //

@@ -11,6 +11,27 @@ Effect sph_effect();
 /// effects.viscosity: artificial viscosity, a term of the force pass.
 Effect viscosity_effect();
 
+/// effects.laminar_viscosity: viscosity of a Newtonian fluid, a term of the force pass.
+Effect laminar_viscosity_effect();
+
+/// effects.tensile_cure: repulsion of particles under tension, a term of the force pass.
+Effect tensile_cure_effect();
+
+/// effects.density_diffusion: evens out density between neighbours, a term of the rates pass.
+Effect density_diffusion_effect();
+
+/// effects.corrected_gradients: CSPM, terms of both passes.
+Effect corrected_gradients_effect();
+
+/// effects.free_surface: which particles lie at the free surface.
+Effect free_surface_effect();
+
+/// effects.shifting: particles drift apart where they are crowded.
+Effect shifting_effect();
+
+/// effects.renormalisation: densities become means of their surroundings every few steps.
+Effect renormalisation_effect();
+
 /// effects.xsph: particles move with the local mean velocity.
 Effect xsph_effect();
 

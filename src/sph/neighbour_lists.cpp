@@ -61,18 +61,21 @@ struct Motion {
   const Line* x;
   const Line* v;
   const Line* x_build;
-  const Line* X;  ///< null without XSPH
+  const Line* X;      ///< null without XSPH
+  const Line* shift;  ///< null without shifting
   double dt_half;
   Motion(const SphState& sph, const Scene& scene, double half)
       : x(scene.nodes.x.data() + scene.particles.begin),
         v(scene.nodes.v.data() + scene.particles.begin),
         x_build(sph.x_build.data()),
         X(sph.X.empty() ? nullptr : sph.X.data()),
+        shift(sph.shift.empty() ? nullptr : sph.shift.data()),
         dt_half(half) {}
   /// Displacement of particle k, to the end of the step [m].
   [[nodiscard]] Vec3 of(Index k) const {
     Vec3 d = xyz(x[k]) - xyz(x_build[k]) + dt_half * xyz(v[k]);
     if (X != nullptr) d += 2 * dt_half * xyz(X[k]);
+    if (shift != nullptr) d += 2 * dt_half * xyz(shift[k]);
     return d;
   }
 };

@@ -102,8 +102,8 @@ GANNET_INLINE void add_lines(double* lines, int n, const Vector<Vec8>& v, double
 }
 
 /// The inverse of M = -sum F r (x) r, which is V/V_0 times the unit matrix in a full
-/// neighbourhood. `usable` is 1 where det(V_0 M) > 0.1, elsewhere 0: too few neighbours, or all on
-/// one side of a line.
+/// neighbourhood. `usable` is 1 where det(V_0 M) > 0.75, elsewhere 0: at the free surface the
+/// usual sums stand, for they let the pressure be 0 there; differences alone know of no surface.
 struct Inverse {
   Symmetric<Vec8> m;
   Vec8 usable;
@@ -130,7 +130,7 @@ GANNET_INLINE Inverse inverse_of(const Symmetric<V>& sums, const PairJob& job) {
   inverse.m.yz = fnma(yz, xx, xy * xz);
   inverse.m.zz = fnma(xy, xy, xx * yy);
   const Vec8 det = fma(xx, inverse.m.xx, fma(xy, inverse.m.xy, xz * inverse.m.xz));
-  const Mask8 bad = less(det, Vec8(0.1));
+  const Mask8 bad = less(det, Vec8(0.75));
   inverse.usable = select(bad, Vec8(0.0), Vec8(1.0));
   const Vec8 factor = s * (Vec8(1.0) / select(bad, Vec8(1.0), det));
   Symmetric<Vec8>& m = inverse.m;

@@ -31,7 +31,7 @@ Mat3 moment_of(const ParticleView& view, Index i, const PairParameters& k) {
 }
 
 bool usable(const Mat3& S, const PairParameters& k) {
-  return (-k.m / k.rho0 * S).determinant() >= 0.1;
+  return (-k.m / k.rho0 * S).determinant() >= 0.75;
 }
 
 double closeness(const PairParameters& k, double W) {

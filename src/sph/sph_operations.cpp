@@ -205,6 +205,11 @@ void add_look(SphState& sph, Scene& scene, Models& models, const std::string& re
 
 }  // namespace
 
+void sum_shepard(SphState& sph, const Scene& scene, double* sum_mW, double* sum_VW) {
+  pack_particles(view_of(sph, scene), sph.kernel.reach(), sph.packed);
+  pair_rates(sph.list, sph.packed, parameters_of(sph), {.sum_mW = sum_mW, .sum_VW = sum_VW});
+}
+
 void add_particle_operations(SphState& sph, Scene& scene, Models& models,
                              const std::string& reason) {
   Plan& plan = models.of_node(scene.particles.begin).plan;

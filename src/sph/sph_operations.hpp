@@ -16,4 +16,8 @@ namespace gannet {
 void add_particle_operations(SphState& sph, Scene& scene, Models& models,
                              const std::string& reason);
 
+/// The sums of renormalised densities at the present positions and densities, ghosts included:
+/// sum m W, sum m/rho W, one entry an owned particle. A rates pass of its own.
+void sum_shepard(SphState& sph, const Scene& scene, double* sum_mW, double* sum_VW);
+
 }  // namespace gannet

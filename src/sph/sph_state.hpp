@@ -63,6 +63,7 @@ struct SphState {
   /// Parts of the density rate of the last rates pass [kg/(m^3 s)], empty where absent.
   Array<double> drho_diffusion, drho_correction;
   Array<double> s;            ///< what density diffusion evens out [kg/m^3]; empty without it
+  Array<Line> shift;          ///< drift of the last step by shifting [m/s]; empty without it
   Array<Line> concentration;  ///< its gradient [1/m], w: div r [-]; empty where nobody asks
 
   PairTerms terms;

@@ -1,10 +1,9 @@
 // The effect `viscosity`: Monaghan's artificial viscosity between particles that approach each
 // other. The force itself is a term of the particle pair pass (sph/pair_pass.hpp); here are its
 // keys and the account of the energy that it takes out of the motion.
-#include <string>
-#include <vector>
-
+#include "plan/effect.hpp"
 #include "sph/effects.hpp"
+#include "sph/force_term.hpp"
 #include "sph/sph_state.hpp"
 
 namespace gannet {
@@ -28,56 +27,21 @@ Schema schema() {
   return {{"effects", viscosity}};
 }
 
-bool asked_for(const Keys& root) {
-  return root.has("effects") && root.map("effects").has("viscosity");
-}
-
 void make_state(const Keys& root, Scene& scene) {
-  if (!asked_for(root)) return;
-  if (scene.particles.empty()) {
-    root.map("effects").complain("viscosity", "acts on particles, and no part is made of them");
-    return;
-  }
+  if (!particles_asked_for(root, "viscosity", scene)) return;
   const Keys viscosity = root.map("effects").map("viscosity");
   auto& sph = scene.store.get<SphState>();
   sph.terms.alpha = viscosity.number("alpha");
   sph.terms.beta = viscosity.number("beta");
-  if (!sph.terms.viscous()) return;
-  sph.f_viscous.assign(static_cast<std::size_t>(scene.particles.size()), {});
-  Field field =
-      line_field("f_viscous", "N", "", Over::particles, sph.f_viscous, 0, 3, GhostRule::none);
-  field.owner = "viscosity";
-  field.checkpoint = false;  // every force pass stores it before look reads it
-  scene.fields.push_back(std::move(field));
-}
-
-/// Energy that viscosity took from the motion of a part along the path of level n [J].
-Work dissipated(const SphState& sph, const Scene& scene, int part, const Step& step) {
-  return -sum_over_part(scene, part, [&](Index k) -> Work {
-    return work_along(work_path(scene.nodes, scene.particles.begin + k, step),
-                      xyz(sph.f_viscous[k]));
-  });
+  if (sph.terms.viscous()) make_force_term(sph.f_viscous, "f_viscous", "viscosity", scene);
 }
 
 void add_operations(const Keys& root, Scene& scene, Models& models) {
-  if (!asked_for(root) || scene.particles.empty()) return;
+  if (scene.particles.empty()) return;
   auto& sph = scene.store.get<SphState>();
   if (!sph.terms.viscous()) return;
-  std::vector<LedgerEntry*> entries;
-  for (const int part : sph.parts) {
-    entries.push_back(&models.ledger.entry("artificial_viscosity", scene.parts[part].name));
-  }
-  models.of_node(scene.particles.begin)
-      .plan.add({.name = "work of artificial viscosity",
-                 .reason = asked_for_at(root.map("effects").where("viscosity")),
-                 .stage = Stage::look,
-                 .reads = {"f_viscous", "v", "f"},
-                 .owns = {"f_viscous"},
-                 .run = [&, entries](const Step& step) {
-                   for (std::size_t k = 0; k < entries.size(); ++k) {
-                     entries[k]->add_work(dissipated(sph, scene, sph.parts[k], step));
-                   }
-                 }});
+  add_work_of_term(sph.f_viscous, "artificial_viscosity", "f_viscous",
+                   asked_for_at(root.map("effects").where("viscosity")), scene, models);
 }
 
 }  // namespace

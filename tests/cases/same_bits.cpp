@@ -51,6 +51,12 @@ Sample dam_sample() {
   return {[] { return std::make_unique<WatchedRun>(dam_break, small_dam); }, 400, false};
 }
 
+Sample terms_sample(const std::string& precision) {
+  std::vector<std::string> set = all_terms;
+  set.push_back("parts.column.sph.precision=" + precision);
+  return {[set] { return std::make_unique<WatchedRun>(dam_break, set); }, 150, false};
+}
+
 Sample periodic_sample() {
   return {[] { return std::make_unique<WatchedRun>(periodic_plane); }, 150, false};
 }
@@ -199,6 +205,14 @@ TEST_CASE("same bits: dam break, 1, 2, 3 and 5 threads", "[bits]") { check_threa
 TEST_CASE("same bits: periodic shear layer with viscosity and XSPH, 1, 2, 3 and 5 threads",
           "[bits]") {
   check_threads(periodic_sample());
+}
+
+TEST_CASE("same bits: every term of the pair passes, 1, 2, 3 and 5 threads", "[bits]") {
+  check_threads(terms_sample(GENERATE("double", "single")));
+}
+
+TEST_CASE("same bits: every term of the pair passes, cut five times, as if never cut", "[bits]") {
+  check_restart(terms_sample(GENERATE("double", "single")));
 }
 
 TEST_CASE("same bits: panel on water, cut five times and resumed, as if never cut", "[bits]") {

@@ -38,4 +38,19 @@ effects:
 output: {until: 10 s, checkpoint: never}
 )";
 
+/// A column that collapses with every effect of the pair passes, in single precision or with one of
+/// the kernels; 4000 particles.
+inline const std::vector<std::string> all_terms{"let.dx=a/45",
+                                                "output.checkpoint=never",
+                                                "parts.column.sph.kernel=wendland_c2",
+                                                "materials.water.cavitation=-200 Pa",
+                                                "effects.viscosity.beta=0.1",
+                                                "effects.laminar_viscosity.mu=0.01",
+                                                "effects.tensile_cure.epsilon=0.3",
+                                                "effects.density_diffusion.delta=0.1",
+                                                "effects.corrected_gradients=on",
+                                                "effects.free_surface.threshold=0.7",
+                                                "effects.shifting.coefficient=0.5",
+                                                "effects.renormalisation.every=7"};
+
 }  // namespace gannet::test

@@ -1,0 +1,51 @@
+// The effect `laminar_viscosity`: the viscosity of a Newtonian fluid,
+//   f_i = sum_j m^2 2 mu/(rho_i rho_j) (r_ij . grad_i W_ij)/(r_ij^2 + 0.01 h^2) v_ij
+// Morris, Fox and Zhu 1997, J. Comput. Phys. 136, 214, eq. 22. Pairs push with equal and opposite
+// forces along v_ij, so linear momentum is kept, angular momentum only as the spacing goes to 0.
+// The sum is a term of the force pass (sph/pair_pass.hpp).
+#include "plan/effect.hpp"
+#include "sph/effects.hpp"
+#include "sph/force_term.hpp"
+#include "sph/sph_state.hpp"
+
+namespace gannet {
+
+namespace {
+
+Schema schema() {
+  Key laminar{.name = "laminar_viscosity",
+              .kind = Kind::map,
+              .text = "viscosity of a Newtonian fluid made of particles"};
+  laminar.keys = {{.name = "mu",
+                   .unit = dim::dynamic_viscosity,
+                   .text = "dynamic viscosity (water: 1 mPa*s)",
+                   .required = true,
+                   .limits = at_least(0)}};
+  return {{"effects", laminar}};
+}
+
+void make_state(const Keys& root, Scene& scene) {
+  if (!particles_asked_for(root, "laminar_viscosity", scene)) return;
+  auto& sph = scene.store.get<SphState>();
+  sph.terms.mu = root.map("effects").map("laminar_viscosity").number("mu");
+  if (sph.terms.mu > 0) make_force_term(sph.f_laminar, "f_laminar", "laminar_viscosity", scene);
+}
+
+void add_operations(const Keys& root, Scene& scene, Models& models) {
+  if (scene.particles.empty()) return;
+  auto& sph = scene.store.get<SphState>();
+  if (sph.terms.mu == 0) return;
+  add_work_of_term(sph.f_laminar, "laminar_viscosity", "f_laminar",
+                   asked_for_at(root.map("effects").where("laminar_viscosity")), scene, models);
+}
+
+}  // namespace
+
+Effect laminar_viscosity_effect() {
+  return {.name = "laminar_viscosity",
+          .schema = schema,
+          .state = make_state,
+          .operations = add_operations};
+}
+
+}  // namespace gannet
