@@ -25,18 +25,25 @@ int threads();
 /// the machine has cores, whatever it is asked for.
 tbb::task_arena& thread_arena();
 
+/// Calls f(begin, end). Not inlined, so that a chunk is the same machine code with one thread and
+/// with several: two inlined copies may contract products and sums differently.
+template <class F>
+[[gnu::noinline]] void run_chunk(const F& f, Index begin, Index end) {
+  f(begin, end);
+}
+
 /// Calls f(begin, end) for consecutive chunks of [0, n); chunk > 0 fixes the cuts.
 template <class F>
 void parallel_for(Index n, Index chunk, F&& f) {
   if (n <= 0) return;
   const Index n_chunks = (n + chunk - 1) / chunk;
   if (n_chunks == 1 || threads() == 1) {
-    for (Index c = 0; c < n_chunks; ++c) f(c * chunk, std::min(n, (c + 1) * chunk));
+    for (Index c = 0; c < n_chunks; ++c) run_chunk(f, c * chunk, std::min(n, (c + 1) * chunk));
     return;
   }
   const auto body = [&](const tbb::blocked_range<Index>& chunks) {
     for (Index c = chunks.begin(); c < chunks.end(); ++c) {
-      f(c * chunk, std::min(n, (c + 1) * chunk));
+      run_chunk(f, c * chunk, std::min(n, (c + 1) * chunk));
     }
   };
   thread_arena().execute([&] {

@@ -157,16 +157,18 @@ struct WatchedRun {
 inline void check_same_history(const WatchedRun& a, const WatchedRun& b) {
   REQUIRE(!b.history.empty());
   std::int64_t first = -1;
+  std::size_t column = 0;
   for (const auto& [n, row] : b.history) {
     const auto it = a.history.find(n);
     REQUIRE(it != a.history.end());
     REQUIRE(it->second.size() == row.size());
     if (std::memcmp(it->second.data(), row.data(), row.size() * sizeof(double)) != 0) {
       first = n;
+      while (std::memcmp(&it->second[column], &row[column], sizeof(double)) == 0) ++column;
       break;
     }
   }
-  INFO("first step with another number: " << first);
+  INFO("first step with another number: " << first << ", number " << column);
   CHECK(first == -1);
 }
 
