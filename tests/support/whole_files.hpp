@@ -22,6 +22,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gannet::test {
@@ -88,6 +89,17 @@ inline std::string pvd_problem(const std::filesystem::path& path) {
   return "";
 }
 
+/// Commas that part columns, not those in quotes.
+inline std::ptrdiff_t n_commas(std::string_view line) {
+  bool quoted = false;
+  std::ptrdiff_t n = 0;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) ++n;
+  }
+  return n;
+}
+
 /// Every line has the columns of the header; only the last may be cut off.
 inline std::string csv_problem(const std::string& path) {
   const std::string text = bytes_of_file(path);
@@ -96,8 +108,7 @@ inline std::string csv_problem(const std::string& path) {
   while (true) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) return "";
-    const auto line = text.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto n = std::count(line, text.begin() + static_cast<std::ptrdiff_t>(end), ',');
+    const auto n = n_commas(std::string_view(text).substr(begin, end - begin));
     if (columns < 0) columns = n;
     if (n != columns) return "a line has another number of columns";
     begin = end + 1;
