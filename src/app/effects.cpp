@@ -10,6 +10,7 @@
 #include "fe/effects.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "output/output.hpp"
+#include "scene/draft.hpp"
 #include "sph/effects.hpp"
 #include "sph/sph_state.hpp"
 #include "study/hard_case.hpp"
@@ -30,11 +31,7 @@ Schema case_schema() {
             .text = "3, or 2 for the plane z = 0 of unit thickness",
             .fallback = "3",
             .limits = between(2, 3)}},
-          {"parts.*",
-           {.name = "initial_velocity",
-            .kind = Kind::vector,
-            .unit = dim::velocity,
-            .text = "velocity of the whole part at the start"}}};
+          {"parts.*", initial_velocity_key()}};
 }
 
 /// Walls mirror water without being told; the effect itself adds no operation.

@@ -96,6 +96,20 @@ Vec3 Keys::vector(std::string_view key) const {
   return {x[0], x[1], x[2]};
 }
 
+const Function& Keys::function(std::string_view key) const {
+  const Value& v = value(key);
+  if (v.functions.size() != 1) fail(*this, key, fmt::format("'{}' is not a number", v.text));
+  return v.functions.front();
+}
+
+VectorFunction Keys::vector_function(std::string_view key) const {
+  const Value& v = value(key);
+  if (v.functions.size() != 3) fail(*this, key, "three items [x, y, z] are wanted");
+  VectorFunction f;
+  for (std::size_t d = 0; d < 3; ++d) f.component[d] = v.functions[d];
+  return f;
+}
+
 const std::vector<double>& Keys::numbers(std::string_view key) const { return value(key).numbers; }
 
 std::string Keys::word(std::string_view key) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/function.hpp"
 #include "base/math.hpp"
 #include "base/schema.hpp"
 
@@ -30,6 +31,9 @@ struct Value {
   Dimension dimension;          ///< of numbers
   bool bare = true;             ///< Kind::any: a number without a unit or a formula, taken in SI
   std::string trouble;          ///< Kind::any: why the scalar is no number
+  /// function: one; vector_function: three, and `words` then holds "" or a word for each.
+  std::vector<Function> functions;
+  FormulaMaker formula;  ///< formula, and a scalar of Kind::any: its owner names the variables
 };
 
 /// Collects the mistakes of a whole case, so that the user sees all of them at once.
@@ -67,6 +71,9 @@ class Keys {
   [[nodiscard]] int integer(std::string_view key) const;
   [[nodiscard]] bool flag(std::string_view key) const;
   [[nodiscard]] Vec3 vector(std::string_view key) const;
+  /// A function of time and place; of a plain number, the constant.
+  [[nodiscard]] const Function& function(std::string_view key) const;
+  [[nodiscard]] VectorFunction vector_function(std::string_view key) const;
   [[nodiscard]] const std::vector<double>& numbers(std::string_view key) const;
   /// Text, choice, reference or path; for a number that may be a word ("auto"), that word or "";
   /// "" where the key is absent.

@@ -11,18 +11,21 @@
 namespace gannet {
 
 enum class Kind {
-  number,     ///< a quantity of `unit`, or a formula of let-names in quotes
-  integer,    ///< a whole number
-  flag,       ///< yes/no
-  text,       ///< free text
-  choice,     ///< one of `choices`
-  vector,     ///< three numbers of `unit` ([x, y, z])
-  numbers,    ///< any number of numbers of `unit` (a single one may stand without brackets)
-  names,      ///< a list of names or of a few words out of `choices` (one may stand alone)
-  path,       ///< a file, relative to the case file; must exist
-  reference,  ///< the user's name of a thing under the top-level map `refers_to`
-  map,        ///< a map of `keys`
-  any         ///< kept as written; the effect that owns it checks it (a mixed list, say)
+  number,    ///< a quantity of `unit`, or a formula of let-names in quotes
+  integer,   ///< a whole number
+  flag,      ///< yes/no
+  text,      ///< free text
+  choice,    ///< one of `choices`
+  vector,    ///< three numbers of `unit` ([x, y, z])
+  function,  ///< a number of `unit`, or a formula of `variables`; a table where one of them is t
+  vector_function,  ///< three of them, each alone may also be a word out of `choices`
+  formula,          ///< a formula whose names its owner supplies
+  numbers,          ///< any number of numbers of `unit` (a single one may stand without brackets)
+  names,            ///< a list of names or of a few words out of `choices` (one may stand alone)
+  path,             ///< a file, relative to the case file; must exist
+  reference,        ///< the user's name of a thing under the top-level map `refers_to`
+  map,              ///< a map of `keys`
+  any               ///< kept as written; the effect that owns it checks it (a mixed list, say)
 };
 
 /// Allowed range of a number; both ends belong to it unless marked open.
@@ -50,6 +53,7 @@ struct Key {
       choices{};            ///< for choice and names; also words that a number may be ("auto")
   std::string refers_to{};  ///< for reference: "materials", "parts", ...
   std::vector<Key> keys{};  ///< for map
+  std::vector<std::string> variables{};  ///< for functions: of t, x, y, z what formulas may use
 };
 
 /// Keys that an effect adds to the case language, at a path from the top: "parts.*", "effects",

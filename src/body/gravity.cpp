@@ -1,4 +1,5 @@
-// Gravity: f += m g for every node, and its work.
+// Gravity: f += m g for every node, and its work. g may be a function of time: a frame that is
+// accelerated by a feels -a.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -67,20 +68,24 @@ std::vector<Share> shares_of(const Scene& scene, const Model& model, Ledger& led
 
 Schema schema() {
   return {{"loads", Key{.name = "gravity",
-                        .kind = Kind::vector,
+                        .kind = Kind::vector_function,
                         .unit = dim::acceleration,
-                        .text = "acceleration of gravity: [0, 0, -9.81 m/s^2]"}}};
+                        .text = "acceleration of gravity: [0, 0, -9.81 m/s^2]",
+                        .variables = {"t"}}}};
 }
 
 bool asked_for(const Keys& root) { return root.has("loads") && root.map("loads").has("gravity"); }
 
 void state(const Keys& root, Scene& scene) {
-  if (asked_for(root)) scene.gravity = root.map("loads").vector("gravity");
+  if (asked_for(root)) {
+    scene.gravity = value_at(root.map("loads").vector_function("gravity"), 0);
+  }
 }
 
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!asked_for(root)) return;
   const std::string reason = asked_for_at(root.map("loads").where("gravity"));
+  const VectorFunction g = root.map("loads").vector_function("gravity");
   for (Model& model : models.list) {
     const std::vector<Range> ranges = model.ranges;
     model.plan.add({.name = "gravity",
@@ -88,7 +93,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                     .stage = Stage::force,
                     .reads = {"m"},
                     .writes = {"f"},
-                    .run = [&scene, ranges](const Step&) {
+                    .run = [&scene, ranges, g, changes = !g.constant()](const Step& step) {
+                      if (changes) scene.gravity = value_at(g, step.t);
                       for (const Range& r : ranges) add_weight(scene.nodes, r, scene.gravity);
                     }});
     const std::vector<Share> shares = shares_of(scene, model, models.ledger);

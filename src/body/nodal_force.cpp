@@ -5,7 +5,6 @@
 
 #include "base/parallel.hpp"
 #include "body/effects.hpp"
-#include "body/time_table.hpp"
 #include "scene/node_set.hpp"
 
 namespace gannet {
@@ -18,8 +17,8 @@ struct NodalForce {
   std::string name;
   Location where;
   std::vector<Index> nodes;
-  Vec3 total = Vec3::Zero();  ///< of all nodes together [N]
-  TimeTable factor;
+  VectorFunction total;  ///< of all nodes together [N]
+  Function factor{1.0};
 };
 
 struct NodalForces {
@@ -30,10 +29,11 @@ Schema schema() {
   Key force{.name = "force", .kind = Kind::map, .text = "a force shared evenly by nodes"};
   force.keys = {node_set_key("nodes", true),
                 Key{.name = "value",
-                    .kind = Kind::vector,
+                    .kind = Kind::vector_function,
                     .unit = dim::force,
                     .text = "of all nodes together",
-                    .required = true},
+                    .required = true,
+                    .variables = {"t"}},
                 Key{.name = "from", .unit = dim::time, .text = "when it starts"},
                 Key{.name = "ramp",
                     .unit = dim::time,
@@ -48,11 +48,11 @@ void state(const Keys& root, Scene& scene) {
   for (const std::string& name : loads.names()) {
     if (!loads.value(name).is_map || !loads.map(name).has("force")) continue;
     const Keys force = loads.map(name).map("force");
-    NodalForce load{
-        name, force.where(), select_nodes(force.map("nodes"), scene), force.vector("value"), {}};
+    NodalForce load{name, force.where(), select_nodes(force.map("nodes"), scene),
+                    force.vector_function("value")};
     if (load.nodes.empty()) continue;
     if (force.has("from") || force.has("ramp")) {
-      load.factor = step_from(force.number_or("from", 0), force.number_or("ramp", 0));
+      load.factor = Function(step_from(force.number_or("from", 0), force.number_or("ramp", 0)));
     }
     scene.store.get<NodalForces>().list.push_back(std::move(load));
   }
@@ -60,7 +60,8 @@ void state(const Keys& root, Scene& scene) {
 
 /// The share of one node at time t [N].
 Vec3 share_at(const NodalForce& load, double t) {
-  return value_at(load.factor, t) / static_cast<double>(load.nodes.size()) * load.total;
+  return value_at(load.factor, t) / static_cast<double>(load.nodes.size()) *
+         value_at(load.total, t);
 }
 
 Work work_of(const NodalForce& load, const std::vector<Index>& mine, const Nodes& nodes,

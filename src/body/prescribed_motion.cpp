@@ -46,9 +46,10 @@ void for_entries(const std::vector<Index>& entries, F&& f) {
 void kick_prescribed(PrescribedMotion& motion, const std::vector<Index>& entries, Nodes& nodes,
                      const Step& step) {
   const double dt = 0.5 * (step.dt_old + step.dt);
-  const double factor = mean_over(motion.factor, step.t, step.t + step.dt);
   std::array<double, 6> wanted;
-  for (std::size_t d = 0; d < 6; ++d) wanted[d] = motion.rate[d] * factor;
+  for (std::size_t d = 0; d < 6; ++d) {
+    wanted[d] = mean_over(motion.rate[d], step.t, step.t + step.dt);
+  }
   for_entries(entries, [&](std::size_t k) {
     const auto i = static_cast<std::size_t>(motion.nodes[k]);
     const Vec3 force = constrain(nodes.v[i], motion.mask[k] & 7u, wanted.data(), dt);
@@ -94,7 +95,8 @@ Vec3 reaction_moment(const PrescribedMotion& motion, const Nodes& nodes) {
 }
 
 void set_velocities(const PrescribedMotion& motion, Nodes& nodes, double t) {
-  const double factor = value_at(motion.factor, t);
+  std::array<double, 6> rates;
+  for (std::size_t d = 0; d < 6; ++d) rates[d] = value_at(motion.rate[d], t);
   for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(motion.nodes[k]);
     const unsigned mask = motion.mask[k];
@@ -102,7 +104,7 @@ void set_velocities(const PrescribedMotion& motion, Nodes& nodes, double t) {
       if ((mask >> d & 1u) == 0) continue;
       Line& line = d < 3 ? nodes.v[i] : nodes.omega[i];
       Vec3 rate = xyz(line);
-      rate[static_cast<int>(d % 3)] = motion.rate[d] * factor;
+      rate[static_cast<int>(d % 3)] = rates[d];
       set_xyz(line, rate);
     }
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "body/time_table.hpp"
+#include "base/function.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 
@@ -21,10 +21,9 @@ struct PrescribedMotion {
   Location where;
   std::vector<Index> nodes;
   std::vector<std::uint8_t> mask;  ///< a node's prescribed components: bit d for component d
-  std::array<double, 6> rate{};    ///< velocity of component d is rate[d] factor(t)
-  TimeTable factor;
-  Array<Line> reaction;  ///< force on a node in the last kick [N]; w unused
-  Array<Line> couple;    ///< moment on it [N m]; w unused
+  std::array<Function, 6> rate;    ///< velocity of component d in time
+  Array<Line> reaction;            ///< force on a node in the last kick [N]; w unused
+  Array<Line> couple;              ///< moment on it [N m]; w unused
 };
 
 /// All prescribed motions of a scene: scene.store.get<PrescribedMotions>().
@@ -34,7 +33,7 @@ struct PrescribedMotions {
 
 /// Kick of the prescribed components of nodes[k], k of `entries`, after the free kick:
 ///   R = (v_wanted - v) / (1/m (dt_old + dt)/2),  f += R,  v = v_wanted
-/// and likewise for rotations with I and torque. v_wanted is the mean of rate factor(t) over
+/// and likewise for rotations with I and torque. v_wanted is the mean of the rate over
 /// [t, t + dt], so that a node's path is the integral of its velocity whatever the steps. With R
 /// in f, velocity_at_level() and work_path() hold for these nodes too. Needs m > 0 (and I > 0).
 void kick_prescribed(PrescribedMotion& motion, const std::vector<Index>& entries, Nodes& nodes,

@@ -23,19 +23,28 @@ Schema schema() {
        .text = "components that stay at rest, of x, y, z and the rotations rx, ry, rz",
        .choices = {components.begin(), components.end()}});
   key({.name = "velocity",
-       .kind = Kind::any,
-       .text = "velocity of the nodes, 'free' where forces decide: [free, free, -6 m/s]"});
+       .kind = Kind::vector_function,
+       .unit = dim::velocity,
+       .text = "velocity of the nodes, 'free' where forces decide: [free, free, -6 m/s]",
+       .choices = {"free"},
+       .variables = {"t"}});
   key({.name = "angular_velocity",
-       .kind = Kind::any,
-       .text = "angular velocity of the nodes, 'free' where forces decide"});
-  key(table_key("factor", "multiplies both in time: [[0 s, 0], [1 ms, 1]]"));
+       .kind = Kind::vector_function,
+       .unit = dim::angular_velocity,
+       .text = "angular velocity of the nodes, 'free' where forces decide",
+       .choices = {"free"},
+       .variables = {"t"}});
+  key({.name = "factor",
+       .kind = Kind::function,
+       .text = "multiplies both in time: [[0 s, 0], [1 ms, 1]]",
+       .variables = {"t"}});
   return table;
 }
 
 /// Which key prescribes component d of a boundary; nullptr: none.
 using Sources = std::array<const char*, 6>;
 
-void prescribe(const Keys& boundary, const char* key, std::size_t d, double rate,
+void prescribe(const Keys& boundary, const char* key, std::size_t d, const Function& rate,
                PrescribedMotion& motion, Sources& sources) {
   if (sources[d] != nullptr) {
     boundary.complain(key,
@@ -46,28 +55,20 @@ void prescribe(const Keys& boundary, const char* key, std::size_t d, double rate
   motion.rate[d] = rate;
 }
 
-/// velocity and angular_velocity: three items, each a number or 'free'.
+/// velocity and angular_velocity: three items, each a function of time or 'free'.
 void read_rates(const Keys& boundary, const char* key, std::size_t first, PrescribedMotion& motion,
                 Sources& sources) {
   if (!boundary.has(key)) return;
-  const std::vector<Value>& items = boundary.value(key).children;
-  if (items.size() != 3) {
-    boundary.complain(key, "three items are wanted, each a number or free: [free, free, -6 m/s]");
-    return;
-  }
-  const Dimension& unit = first == 0 ? dim::velocity : dim::angular_velocity;
+  const VectorFunction rate = boundary.vector_function(key);
+  const Function factor = boundary.has("factor") ? boundary.function("factor") : Function(1.0);
   for (std::size_t d = 0; d < 3; ++d) {
-    if (items[d].words.size() == 1 && items[d].words[0] == "free") continue;
-    prescribe(boundary, key, first + d, boundary.quantity(items[d], unit), motion, sources);
+    if (boundary.words(key)[d] == "free") continue;
+    prescribe(boundary, key, first + d, product(rate.component[d], factor), motion, sources);
   }
 }
 
 /// Which motion prescribes component d of a node.
 using Owners = std::map<Index, std::array<const PrescribedMotion*, 6>>;
-
-bool same_component(const PrescribedMotion& a, const PrescribedMotion& b, std::size_t d) {
-  return a.rate[d] == b.rate[d] && (a.rate[d] == 0 || a.factor == b.factor);
-}
 
 /// Hands the components of `sources` to the nodes. What an earlier boundary prescribes alike stays
 /// with that one, so that a reaction is counted once; what it prescribes otherwise is a mistake.
@@ -78,7 +79,7 @@ void claim(const Keys& boundary, const Sources& sources, const Scene& scene, Own
     unsigned mask = 0;
     for (std::size_t d = 0; d < 6; ++d) {
       if (sources[d] == nullptr) continue;
-      if (owner[d] != nullptr && !same_component(*owner[d], motion, d)) {
+      if (owner[d] != nullptr && !(owner[d]->rate[d] == motion.rate[d])) {
         const Vec3 x = xyz(scene.nodes.x[static_cast<std::size_t>(i)]);
         boundary.complain(
             sources[d],
@@ -119,13 +120,12 @@ void read_motion(const Keys& boundary, Scene& scene, Owners& owners) {
   if (boundary.has("fix")) {
     for (const std::string& word : boundary.words("fix")) {
       for (std::size_t d = 0; d < 6; ++d) {
-        if (word == components[d]) prescribe(boundary, "fix", d, 0.0, motion, sources);
+        if (word == components[d]) prescribe(boundary, "fix", d, Function(0.0), motion, sources);
       }
     }
   }
   read_rates(boundary, "velocity", 0, motion, sources);
   read_rates(boundary, "angular_velocity", 3, motion, sources);
-  if (boundary.has("factor")) motion.factor = read_table(boundary, "factor", dim::none);
   if (sources == Sources{}) {
     boundary.complain("nodes", "say what the nodes do: fix, velocity or angular_velocity");
     return;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "body/time_table.hpp"
+#include "base/function.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 
@@ -29,11 +29,12 @@ struct PressureLoad {
   std::string name;
   Location where;
   int part = 0;
-  double side = -1;    ///< +1 pushes along the normals, -1 against them
-  TimeTable pressure;  ///< p(t) [Pa]
+  double side = -1;   ///< +1 pushes along the normals, -1 against them
+  Function pressure;  ///< p(t, x), x the centre of a cell [Pa]
   // Built by prepare():
   std::vector<Index> first;  ///< of node k of the part: entries first[k] .. first[k+1] of `corners`
   std::vector<Index> corners;  ///< cell * nodes_per(cell) + corner, in rising order
+  Array<double> p;             ///< by cell, where it depends on place [Pa]
   Array<Line> corner_force;    ///< by cell and corner [N]
   Array<Line> force;           ///< by node of the part, at level n [N]; w unused
 };

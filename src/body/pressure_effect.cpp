@@ -1,4 +1,4 @@
-// How a case asks for a pressure: loads.NAME.pressure: {on, value or table, side, from, ramp}.
+// How a case asks for a pressure: loads.NAME.pressure: {on, value, side, from, ramp}.
 #include <fmt/format.h>
 
 #include <deque>
@@ -24,8 +24,12 @@ Schema schema() {
           .text = "the part with the surface",
           .required = true,
           .refers_to = "parts"},
-      Key{.name = "value", .unit = dim::pressure, .text = "the pressure"},
-      table_key("table", "pressure in time: [[0 s, 0 Pa], [1 ms, 2 kPa]]"),
+      Key{.name = "value",
+          .kind = Kind::function,
+          .unit = dim::pressure,
+          .text = "the pressure; x, y and z are those of the middle of an element now",
+          .required = true,
+          .variables = {"t", "x", "y", "z"}},
       Key{.name = "side",
           .kind = Kind::choice,
           .text = "the side it acts on: front is where the normals point to, and pressure there "
@@ -40,23 +44,12 @@ Schema schema() {
   return {{"loads.*", pressure}};
 }
 
-/// p(t) as the case gives it: a table, or a value that starts at `from` and rises within `ramp`.
-TimeTable pressure_in_time(const Keys& pressure) {
-  if (pressure.has("table") == pressure.has("value")) {
-    pressure.complain("value", "a pressure is given by one of value and table");
-    return {};
-  }
-  if (pressure.has("table")) {
-    for (const char* key : {"from", "ramp"}) {
-      if (pressure.given(key)) pressure.complain(key, "goes with value; a table has its own times");
-    }
-    return read_table(pressure, "table", dim::pressure);
-  }
-  const double value = pressure.number("value");
-  if (!pressure.has("from") && !pressure.has("ramp")) return {{0}, {value}};
-  TimeTable table = step_from(pressure.number_or("from", 0), pressure.number_or("ramp", 0));
-  table.y.back() = value;
-  return table;
+/// p(t, x) as the case gives it, from the time `from` on and rising within `ramp`.
+Function pressure_in_time(const Keys& pressure) {
+  const Function& value = pressure.function("value");
+  if (!pressure.has("from") && !pressure.has("ramp")) return value;
+  return product(value,
+                 Function(step_from(pressure.number_or("from", 0), pressure.number_or("ramp", 0))));
 }
 
 void read_load(const Keys& keys, const std::string& name, Scene& scene) {

@@ -66,11 +66,7 @@ Schema schema() {
                 .kind = Kind::map,
                 .text = "the part is made of 4-node shells",
                 .keys = shell_keys()}});
-  s.push_back({"parts.*",
-               {.name = "initial_velocity",
-                .kind = Kind::vector,
-                .unit = dim::velocity,
-                .text = "velocity at the start"}});
+  s.push_back({"parts.*", initial_velocity_key()});
   return s;
 }
 
@@ -102,7 +98,7 @@ void add_parts(const Keys& root, Draft& draft) {
     p.cell = Cell::quad;
     p.points = mesh.points;
     p.connectivity = mesh.quads;
-    if (part.has("initial_velocity")) p.velocity = part.vector("initial_velocity");
+    p.velocity = initial_velocity(part, p.points);
     draft.parts.push_back(std::move(p));
   }
 }

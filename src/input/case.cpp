@@ -9,6 +9,7 @@
 
 #include "input/cards.hpp"
 #include "input/checker.hpp"
+#include "input/functions.hpp"
 #include "input/language.hpp"
 #include "input/overrides.hpp"
 #include "input/resolved.hpp"
@@ -77,6 +78,7 @@ void check_root(TextNode& root, Key top, Case& result) {
     names->items.clear();  // checked here, with formulas that grow from name to name
     names->form = TextNode::Form::nothing;
   }
+  if (const TextNode* curves = find(root, "curves")) check_curves(*curves, context);
   result.root = check(root, top, "", context);
   check_references(root, context);
   for (Value& child : result.root.children) {

@@ -56,6 +56,7 @@ Value check_any(const TextNode& node, const Key& key, const std::string& path,
     value.bare = q.bare;
   } catch (const std::invalid_argument& error) {
     value.trouble = error.what();
+    value.formula = maker_of(node.text, context.formulas);
   }
   return value;
 }

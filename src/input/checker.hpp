@@ -39,6 +39,9 @@ Value check(const TextNode& node, const Key& key, const std::string& path, Check
 /// A scalar, vector or list of numbers, words or names (all kinds but map and any).
 void check_simple(const TextNode& node, const Key& key, Value& value, CheckContext& context);
 
+/// Makes the formula of a text with the names of a case, once its variables are known.
+FormulaMaker maker_of(const std::string& text, const Formulas& formulas);
+
 /// The names under `let`, in order; each may use those before it. Fills context.formulas.
 Value check_let(const TextNode& let, CheckContext& context);
 

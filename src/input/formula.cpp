@@ -88,18 +88,57 @@ void Formulas::define_broken(const std::string& name) {
   values_.erase(name);
 }
 
-void Formulas::check_name(const std::string& text, const std::string& name, bool called) const {
-  if (called && !is_function(name)) {
-    throw FormulaError(fmt::format("'{}': unknown function '{}'{}", text, name,
-                                   did_you_mean(name, function_names())));
+void Formulas::define_curve(const std::string& name, const Curve& curve) {
+  if (!is_word(name)) {
+    throw std::invalid_argument(
+        "the name of a curve has letters, digits and '_' only, a letter "
+        "first");
   }
-  if (called || name == "pi" || values_.count(name) > 0) return;
-  if (has(name)) throw FormulaError("");
-  throw FormulaError(fmt::format("'{}': unknown name '{}'{} (names under let: {})", text, name,
-                                 did_you_mean(name, names_), comma_list(names_)));
+  if (name == "pi" || is_function(name) || has(name)) {
+    throw std::invalid_argument(
+        fmt::format("'{}' means something in formulas already; choose another name", name));
+  }
+  curves_[name] = std::make_shared<const Curve>(curve);
 }
 
-void Formulas::check_names(const std::string& text) const {
+std::shared_ptr<const Curve> Formulas::curve(const std::string& name) const {
+  const auto it = curves_.find(name);
+  return it == curves_.end() ? nullptr : it->second;
+}
+
+void Formulas::check_name(const std::string& text, const std::string& name, bool called,
+                          const std::vector<std::string>& variables) const {
+  if (called && curve(name) != nullptr) return;
+  if (called && !is_function(name)) {
+    std::vector<std::string> known = function_names();
+    for (const auto& entry : curves_) known.push_back(entry.first);
+    throw FormulaError(
+        fmt::format("'{}': unknown function '{}'{}", text, name, did_you_mean(name, known)));
+  }
+  const bool variable = std::find(variables.begin(), variables.end(), name) != variables.end();
+  if (variable && has(name)) {
+    throw FormulaError(
+        fmt::format("'{}': '{}' is a variable here and a name under let; give that "
+                    "another name",
+                    text, name));
+  }
+  if (called || variable || name == "pi" || values_.count(name) > 0) return;
+  if (has(name)) throw FormulaError("");
+  if (curve(name) != nullptr) {
+    throw FormulaError(fmt::format("'{0}': the curve '{1}' wants a time: {1}(t)", text, name));
+  }
+  std::vector<std::string> known = variables;
+  known.insert(known.end(), names_.begin(), names_.end());
+  const std::string also = variables.empty() ? "" : "variables: " + comma_list(variables) + "; ";
+  throw FormulaError(fmt::format("'{}': unknown name '{}'{} ({}names under let: {})", text, name,
+                                 did_you_mean(name, known), also, comma_list(names_)));
+}
+
+namespace {
+
+/// Calls f(name, called) for each name in a text.
+template <class F>
+void for_names(const std::string& text, F&& f) {
   for (std::size_t at = 0; at < text.size();) {
     if (is_digit(text[at]) || text[at] == '.') {
       at = std::max(skip_number(text, at), at + 1);
@@ -112,30 +151,74 @@ void Formulas::check_names(const std::string& text) const {
     std::size_t end = at;
     while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
     const std::size_t next = text.find_first_not_of(" \t", end);
-    const bool called = next != std::string::npos && text[next] == '(';
-    check_name(text, text.substr(at, end - at), called);
+    f(text.substr(at, end - at), next != std::string::npos && text[next] == '(');
     at = end;
   }
 }
 
-double Formulas::evaluate(const std::string& text) const {
-  check_names(text);
-  try {
+double value_of_curve(void* curve, double t) {
+  return value_at(static_cast<const Curve*>(curve)->table, t);
+}
+
+}  // namespace
+
+void Formulas::check_names(const std::string& text,
+                           const std::vector<std::string>& variables) const {
+  for_names(text, [&](const std::string& name, bool called) {
+    check_name(text, name, called, variables);
+  });
+}
+
+std::vector<std::string> Formulas::variables_in(const std::string& text,
+                                                const std::vector<std::string>& variables) const {
+  std::vector<std::string> found;
+  for_names(text, [&](const std::string& name, bool called) {
+    const bool known =
+        !called && std::find(variables.begin(), variables.end(), name) != variables.end();
+    if (known) found.push_back(name);
+    if (curve(name) != nullptr) found.emplace_back();
+  });
+  return found;
+}
+
+std::function<double(const double*)> Formulas::compile(
+    const std::string& text, const std::vector<std::string>& variables) const {
+  struct Compiled {
     mu::Parser parser;
+    std::vector<double> values;
+    std::map<std::string, std::shared_ptr<const Curve>> curves;
+  };
+  check_names(text, variables);
+  const auto made = std::make_shared<Compiled>();
+  made->values.assign(variables.size(), 0);
+  made->curves = curves_;
+  int n_results = 0;
+  try {
+    mu::Parser& parser = made->parser;
     parser.ClearConst();
     parser.DefineConst("pi", std::numbers::pi);
     for (const auto& [name, value] : values_) parser.DefineConst(name, value.value);
+    for (const auto& [name, curve] : made->curves) {
+      parser.DefineFunUserData(name, value_of_curve, const_cast<Curve*>(curve.get()), false);
+    }
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      parser.DefineVar(variables[k], &made->values[k]);
+    }
     parser.SetExpr(text);
-    int n_results = 0;
-    const double* results = parser.Eval(n_results);
-    if (n_results == 1) return results[0];
+    parser.Eval(n_results);
   } catch (const mu::ParserError& error) {
     std::string what = error.GetMsg();
     while (!what.empty() && (what.back() == '.' || what.back() == ' ')) what.pop_back();
     throw FormulaError(fmt::format("'{}' cannot be worked out: {}", text, what));
   }
-  throw FormulaError(fmt::format("'{}' has a comma; write one number", text));
+  if (n_results != 1) throw FormulaError(fmt::format("'{}' has a comma; write one number", text));
+  return [made](const double* values) {
+    std::copy(values, values + made->values.size(), made->values.begin());
+    return made->parser.Eval();
+  };
 }
+
+double Formulas::evaluate(const std::string& text) const { return compile(text, {})(nullptr); }
 
 Quantity Formulas::read(const std::string& text) const {
   std::string why_no_quantity;

@@ -1,11 +1,14 @@
 // Names that a case defines under `let`, and the formulas that use them: "V*pi/(2*tan(beta))".
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "base/time_table.hpp"
 #include "base/units.hpp"
 
 namespace gannet {
@@ -17,7 +20,14 @@ class FormulaError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The names under `let` and what they stand for.
+/// A table in time under `curves`; in formulas a function of one argument.
+struct Curve {
+  TimeTable table;
+  Dimension dimension;
+  bool bare = true;  ///< no value has a unit
+};
+
+/// The names under `let` and `curves` and what they stand for.
 class Formulas {
  public:
   /// Adds a name. Throws std::invalid_argument where it cannot stand in a formula: not a word of
@@ -33,15 +43,31 @@ class Formulas {
   /// what was not understood, with the text in quotes.
   [[nodiscard]] Quantity read(const std::string& text) const;
 
+  /// Adds a curve. Throws std::invalid_argument where its name means something already.
+  void define_curve(const std::string& name, const Curve& curve);
+  /// The curve of that name, or nullptr.
+  [[nodiscard]] std::shared_ptr<const Curve> curve(const std::string& name) const;
+
+  /// Those of `variables` that stand in a text as names, or "" as one more where a curve does.
+  [[nodiscard]] std::vector<std::string> variables_in(
+      const std::string& text, const std::vector<std::string>& variables) const;
+  /// The formula as a function of the variables' values, in their order [SI]. The function lives as
+  /// long as it is kept and works with storage of its own: one thread at a time.
+  /// Throws FormulaError as read() does, and where a variable is also a name under let.
+  [[nodiscard]] std::function<double(const double*)> compile(
+      const std::string& text, const std::vector<std::string>& variables) const;
+
   [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
   [[nodiscard]] double evaluate(const std::string& text) const;
-  void check_names(const std::string& text) const;
-  void check_name(const std::string& text, const std::string& name, bool called) const;
+  void check_names(const std::string& text, const std::vector<std::string>& variables) const;
+  void check_name(const std::string& text, const std::string& name, bool called,
+                  const std::vector<std::string>& variables) const;
   std::vector<std::string> names_;
   std::map<std::string, Quantity> values_;
+  std::map<std::string, std::shared_ptr<const Curve>> curves_;
 };
 
 }  // namespace gannet

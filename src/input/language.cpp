@@ -35,6 +35,10 @@ void merge_key(std::vector<Key>& keys, const Key& key, const std::string& path) 
     auto& all = known->choices;
     if (std::find(all.begin(), all.end(), choice) == all.end()) all.push_back(choice);
   }
+  for (const std::string& name : key.variables) {
+    auto& all = known->variables;
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+  }
   for (const Key& child : key.keys) merge_key(known->keys, child, path + "." + key.name);
 }
 
@@ -74,6 +78,13 @@ void add_card_keys(Key& root) {
                    {.name = "source", .kind = Kind::names, .text = "where the numbers are from"}});
 }
 
+/// " or a formula of t or a table"
+std::string or_function(const Key& key) {
+  const auto& of = key.variables;
+  const bool timed = std::find(of.begin(), of.end(), "t") != of.end();
+  return fmt::format(" or a formula of {}{}", comma_list(of), timed ? " or a table in time" : "");
+}
+
 std::string kind_name(const Key& key) {
   switch (key.kind) {
     case Kind::number:
@@ -88,6 +99,12 @@ std::string kind_name(const Key& key) {
       return fmt::format("one of {}", comma_list(key.choices));
     case Kind::vector:
       return fmt::format("[x, y, z], each {}", with_article(name_of(key.unit)));
+    case Kind::function:
+      return name_of(key.unit) + or_function(key);
+    case Kind::vector_function:
+      return fmt::format("[x, y, z], each {}{}", with_article(name_of(key.unit)), or_function(key));
+    case Kind::formula:
+      return "formula";
     case Kind::numbers:
       return fmt::format("list, each {}", with_article(name_of(key.unit)));
     case Kind::names:
@@ -123,6 +140,10 @@ Key language(const Schema& schema) {
   Key let{.name = "let", .kind = Kind::map, .text = "names for formulas"};
   let.keys.push_back({.name = "*", .kind = Kind::number, .text = "a quantity or a formula"});
   root.keys.push_back(let);
+  root.keys.push_back({.name = "curves",
+                       .kind = Kind::map,
+                       .text = "tables in time, as functions for formulas",
+                       .keys = {{.name = "*", .kind = Kind::any, .text = "a table"}}});
   for (const std::string& name : reserved_keys()) {
     root.keys.push_back({.name = name, .kind = Kind::map});
   }
@@ -204,6 +225,13 @@ std::string wanted_text(const Key& key) {
       return fmt::format("one of {} is wanted", comma_list(key.choices));
     case Kind::vector:
       return fmt::format("[x, y, z] is wanted, {}{}", each_of(key.unit), or_words);
+    case Kind::function:
+      return wanted_text(key.unit) + or_function(key) + or_words;
+    case Kind::vector_function:
+      return fmt::format("[x, y, z] is wanted, {}{}{}", each_of(key.unit), or_function(key),
+                         or_words);
+    case Kind::formula:
+      return "a formula is wanted";
     case Kind::numbers:
       return fmt::format("a list of numbers is wanted, {}{}", each_of(key.unit), or_words);
     case Kind::names:

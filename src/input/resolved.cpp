@@ -66,7 +66,24 @@ std::string list_text(const Value& v) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
+/// A formula as it stands; constants and tables by their numbers.
+std::string function_text(const Function& f, const std::string& word) {
+  if (!word.empty()) return word_text(word);
+  return f.formula ? word_text(f.text) : f.text;
+}
+
+std::string functions_text(const Value& v) {
+  if (v.kind == Kind::function && v.functions.empty()) return scalar_text(v);
+  std::vector<std::string> items;
+  for (std::size_t k = 0; k < v.functions.size(); ++k) {
+    items.push_back(function_text(v.functions[k], k < v.words.size() ? v.words[k] : ""));
+  }
+  if (v.kind == Kind::function) return items.front();
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
 std::string inline_text(const Value& v) {
+  if (v.kind == Kind::function || v.kind == Kind::vector_function) return functions_text(v);
   if (v.is_list) return list_text(v);
   if (!v.is_map) return scalar_text(v);
   std::vector<std::string> items;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "input/checker.hpp"
+#include "input/functions.hpp"
 #include "input/language.hpp"
 #include "input/nearest.hpp"
 
@@ -232,6 +233,14 @@ void check_simple(const TextNode& node, const Key& key, Value& value, CheckConte
       return check_vector(place, value);
     case Kind::numbers:
       return check_numbers(place, value);
+    case Kind::function:
+      return check_function(node, key, value, context);
+    case Kind::vector_function:
+      return check_vector_function(node, key, value, context);
+    case Kind::formula:
+      check_text(place, value);
+      if (!value.words.empty()) value.formula = maker_of(node.text, context.formulas);
+      return;
     case Kind::reference:
       return check_name(place, value);
     case Kind::names:

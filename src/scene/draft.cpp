@@ -1,5 +1,7 @@
 #include "scene/draft.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -42,7 +44,7 @@ void add_part(const PartDraft& draft, Index begin, std::int64_t& next_cell, Part
     const std::size_t to = static_cast<std::size_t>(begin) + k;
     node_of[from] = static_cast<Index>(to);
     set_xyz(nodes.x[to], draft.points[from]);
-    set_xyz(nodes.v[to], draft.velocity);
+    set_xyz(nodes.v[to], value_at(draft.velocity, 0, draft.points[from]));
     nodes.id[to] = static_cast<std::int64_t>(begin) + order[k] + 1;
   }
   part.name = draft.name;
@@ -87,6 +89,28 @@ void track_nodes(Scene& scene) {
 }
 
 }  // namespace
+
+Key initial_velocity_key() {
+  return {.name = "initial_velocity",
+          .kind = Kind::vector_function,
+          .unit = dim::velocity,
+          .text = "velocity at the start",
+          .variables = {"x", "y", "z"}};
+}
+
+VectorFunction initial_velocity(const Keys& part, const std::vector<Vec3>& points) {
+  if (!part.has("initial_velocity")) return Vec3(Vec3::Zero());
+  VectorFunction v = part.vector_function("initial_velocity");
+  if (v.constant()) return v;
+  for (const Vec3& x : points) {
+    if (value_at(v, 0, x).allFinite()) continue;
+    part.complain("initial_velocity",
+                  fmt::format("not finite at the point ({:g}, {:g}, {:g}) m of the part", x.x(),
+                              x.y(), x.z()));
+    break;
+  }
+  return v;
+}
 
 void assemble(const Draft& draft, Scene& scene) {
   scene.title = draft.title;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/function.hpp"
 #include "base/keys.hpp"
 #include "base/math.hpp"
 #include "scene/scene.hpp"
@@ -19,8 +20,8 @@ struct PartDraft {
   bool rotations = false;  ///< its nodes have rotational lines
   Cell cell = Cell::none;  ///< none: the points are particles
   std::vector<Vec3> points;
-  std::vector<Index> connectivity;  ///< indices into points
-  Vec3 velocity = Vec3::Zero();     ///< initial velocity [m/s]
+  std::vector<Index> connectivity;        ///< indices into points
+  VectorFunction velocity{Vec3::Zero()};  ///< initial velocity by place [m/s]
 };
 
 struct Draft {
@@ -28,6 +29,12 @@ struct Draft {
   int dimension = 3;
   std::vector<PartDraft> parts;
 };
+
+/// The key initial_velocity of a part, for a schema.
+Key initial_velocity_key();
+
+/// What it says: at rest where it is absent. Complains where it is not finite at a point.
+VectorFunction initial_velocity(const Keys& part, const std::vector<Vec3>& points);
 
 /// Numbers the nodes (rotating, other, particles), orders nodes and cells of each mesh along a
 /// space-filling curve, and tracks the fields of the node table. Masses are 0 until the effects

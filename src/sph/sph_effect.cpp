@@ -60,12 +60,14 @@ Schema schema() {
                     .text =
                         "height of the free surface for a hydrostatic start, measured against "
                         "gravity from the origin (the top of the part where absent)"};
-  const Key velocity{.name = "initial_velocity",
-                     .kind = Kind::vector,
-                     .unit = dim::velocity,
-                     .text = "velocity at the start"};
+  const Key pressure{.name = "initial_pressure",
+                     .kind = Kind::function,
+                     .unit = dim::pressure,
+                     .text = "added to the pressure that `start` gives",
+                     .variables = {"x", "y", "z"}};
   Schema s = murnaghan_schema();
-  for (const Key& key : {sph, start, surface, velocity}) s.push_back({"parts.*", key});
+  for (const Key& key : {sph, start, surface, initial_velocity_key(), pressure})
+    s.push_back({"parts.*", key});
   return s;
 }
 
@@ -119,7 +121,7 @@ void add_parts(const Keys& root, Draft& draft) {
     p.material = sph.word("material");
     p.where = part.where();
     p.points = fill_points(part, sph.number("spacing"), draft.dimension);
-    if (part.has("initial_velocity")) p.velocity = part.vector("initial_velocity");
+    p.velocity = initial_velocity(part, p.points);
     draft.parts.push_back(std::move(p));
   }
 }
@@ -192,11 +194,21 @@ void set_start(const Keys& part, SphState& sph, const Scene& scene) {
   const Vec3 up = upwards(scene);
   const double surface =
       part.has("surface") ? part.number("surface") : highest(scene, up, number) + 0.5 * sph.dx;
+  const Function added =
+      part.has("initial_pressure") ? part.function("initial_pressure") : Function(0.0);
   for (Index k = 0; k < scene.particles.size(); ++k) {
     if (scene.particle_part[k] != number) continue;
-    const double z = up.dot(xyz(scene.nodes.x[scene.particles.begin + k]));
-    const double depth = hydrostatic ? std::max(surface - z, 0.0) : 0.0;
-    sph.rho[k] = density(eos, eos.p0 + eos.rho0 * scene.gravity.norm() * depth);
+    const Vec3 x = xyz(scene.nodes.x[scene.particles.begin + k]);
+    const double depth = hydrostatic ? std::max(surface - up.dot(x), 0.0) : 0.0;
+    const double p = eos.p0 + eos.rho0 * scene.gravity.norm() * depth + value_at(added, 0, x);
+    if (!(p > eos.p0 - eos.B) || !std::isfinite(p)) {
+      part.complain("initial_pressure",
+                    fmt::format("{:g} Pa at ({:g}, {:g}, {:g}) m: no density of the material goes "
+                                "with it",
+                                p, x.x(), x.y(), x.z()));
+      return;
+    }
+    sph.rho[k] = density(eos, p);
     sph.p[k] = pressure(eos, sph.rho[k]);
   }
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "base/parallel.hpp"
 #include "body/effects.hpp"
@@ -75,4 +76,19 @@ TEST_CASE("gravity: the same bits for 1 and 3 threads", "[body]") {
   const double one = run(1);
   CHECK(run(3) == one);
   set_threads(0);
+}
+
+TEST_CASE("gravity: in time, as a frame that sways feels it", "[body]") {
+  Draft draft;
+  draft.parts = {test::particles("pool", {{0, 0, 5}})};
+  auto world =
+      make_world("let: {A: 3 m/s^2, w: 20 rad/s}\nloads: {gravity: [\"A*cos(w*t)\", 0, -10 m/s^2]}",
+                 draft, {gravity_effect()});
+  CHECK(world->scene.gravity == Vec3(3, 0, -10));
+  world->take_steps(100);
+  // The last force stage was at 99 ms.
+  CHECK(world->scene.nodes.f[0].x == Approx(2 * 3 * std::cos(20 * 0.099)).epsilon(1e-12));
+  CHECK(world->scene.nodes.f[0].z == -20);
+  const double v = 3 / 20.0 * std::sin(20 * 0.0995);
+  CHECK(world->scene.nodes.v[0].x == Approx(v).epsilon(1e-3));
 }

@@ -25,7 +25,11 @@ std::unique_ptr<World> panel_world(const std::string& text, bool rotations = fal
 }
 
 std::string mistakes(const std::string& boundaries, bool rotations = false) {
-  return test::mistakes_of(*panel_world("boundaries:\n" + boundaries, rotations));
+  try {
+    return test::mistakes_of(*panel_world("boundaries:\n" + boundaries, rotations));
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 }  // namespace
@@ -63,6 +67,18 @@ TEST_CASE("prescribed motion: a factor in time is followed exactly over its corn
   REQUIRE(t > 0.01);
   // 2 m/s (10 ms / 2 + what is left).
   CHECK(world->scene.nodes.x[3].z == Approx(2 * (0.005 + t - 0.01)).epsilon(1e-13));
+}
+
+TEST_CASE("prescribed motion: a formula in time is followed to its integral", "[body]") {
+  auto world = panel_world(
+      "let: {V: 2 m/s, w: 40 rad/s}\n"
+      "boundaries: {all: {nodes: {part: panel}, velocity: [free, 0, \"V*cos(w*t)\"]}}\n");
+  CHECK(world->scene.nodes.v[3].z == 2);
+  for (int n = 0; n < 30; ++n) {
+    world->dt = n % 2 == 0 ? 1.1e-3 : 1.6e-3;
+    world->take_steps(1);
+  }
+  CHECK(world->scene.nodes.x[3].z == Approx(0.05 * std::sin(40 * world->time())).margin(1e-12));
 }
 
 TEST_CASE("prescribed motion: fixed edges stay where they are and carry the weight", "[body]") {
@@ -157,7 +173,7 @@ TEST_CASE("prescribed motion: mistakes name their place", "[body]") {
   CHECK_THAT(mistakes("  b: {nodes: {part: panel}}\n"), Catch::Contains("say what the nodes do"));
   CHECK_THAT(mistakes("  b: {fix: [x]}\n"), Catch::Contains("say of which nodes"));
   CHECK_THAT(mistakes("  b: {nodes: {part: panel}, velocity: [1 m/s, 2 m/s]}\n"),
-             Catch::Contains("three items are wanted"));
+             Catch::Contains("2 numbers stand here; three are wanted"));
   CHECK_THAT(mistakes("  b: {nodes: {part: panel}, velocity: [free, loose, 1 s]}\n"),
              Catch::Contains("loose") && Catch::Contains("'1 s' is a time"));
   CHECK_THAT(mistakes("  b: {nodes: {part: pool}, fix: [x]}\n"),

@@ -58,10 +58,10 @@ TEST_CASE("mistake: an unknown key names the nearest and lists the allowed", "[i
   CHECK(mistakes_with("parts: {p: {shell: {material: skin, thickness: 3 mm, point: 3}}}\n") ==
         "tests/a.yaml:4:54: parts.p.shell.point: unknown key; did you mean 'points' (whole number, "
         "in [1, 9])? Allowed here: material, thickness, points, formulation");
-  CHECK(
-      mistakes_with("colour: red\n") ==
-      "tests/a.yaml:4:1: colour: unknown key; allowed here: gannet, title, let, materials, parts, "
-      "contacts, boundaries, loads, effects");
+  CHECK(mistakes_with("colour: red\n") ==
+        "tests/a.yaml:4:1: colour: unknown key; allowed here: gannet, title, let, curves, "
+        "materials, parts, "
+        "contacts, boundaries, loads, effects");
   CHECK(mistakes_with("effects: {xsph: {epsilonn: 1}}\n") ==
         "tests/a.yaml:4:18: effects.xsph.epsilonn: unknown key; did you mean 'epsilon' (plain "
         "number, in [0, 1])? Allowed here: epsilon, on");

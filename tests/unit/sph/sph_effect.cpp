@@ -79,6 +79,18 @@ TEST_CASE("sph: a surface that is given counts for the depth", "[sph]") {
   }
 }
 
+TEST_CASE("sph: velocity and pressure at the start by place", "[sph]") {
+  Pool pool(column(", start: hydrostatic, initial_velocity: [\"2*y\", 0, \"-x\"], "
+                   "initial_pressure: \"100*x\""),
+            3, {0, 0, -10});
+  for (Index k = 0; k < pool.scene.particles.size(); ++k) {
+    const Vec3 x = pool.x(k);
+    const Line& v = pool.scene.nodes.v[static_cast<std::size_t>(pool.scene.particles.begin + k)];
+    CHECK((xyz(v) - Vec3(2 * x.y(), 0, -x.x())).norm() < 1e-15);
+    CHECK(pool.sph().p[k] == Approx(-1e4 * x.z() + 100 * x.x()).epsilon(1e-9).margin(1e-6));
+  }
+}
+
 TEST_CASE("sph: c0 auto is ten times the largest expected speed", "[sph]") {
   const auto c0_of = [](const std::string& material, const std::string& more, double g) {
     Pool pool("materials: {water: {density: 1000" + material + "}}\n" +

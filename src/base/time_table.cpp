@@ -1,6 +1,4 @@
-#include "body/time_table.hpp"
-
-#include <fmt/format.h>
+#include "base/time_table.hpp"
 
 #include <algorithm>
 
@@ -46,32 +44,5 @@ double mean_over(const TimeTable& table, double from, double to) {
 }
 
 TimeTable step_from(double from, double ramp) { return {{from, from + ramp}, {0, 1}}; }
-
-TimeTable read_table(const Keys& keys, const char* key, const Dimension& unit) {
-  TimeTable table;
-  for (const Value& pair : keys.value(key).children) {
-    if (pair.children.size() != 2) {
-      keys.complain(pair, "a table is a list of pairs: [[time, value], [time, value], ...]");
-      return table;
-    }
-    const double t = keys.quantity(pair.children[0], dim::time);
-    const double y = keys.quantity(pair.children[1], unit);
-    if (!table.t.empty() && t <= table.t.back()) {
-      keys.complain(pair.children[0],
-                    fmt::format("times must rise: {} s comes after {} s", t, table.t.back()));
-      return table;
-    }
-    table.t.push_back(t);
-    table.y.push_back(y);
-  }
-  if (table.t.empty()) {
-    keys.complain(key, "a table is a list of pairs: [[time, value], [time, value], ...]");
-  }
-  return table;
-}
-
-Key table_key(const char* name, const char* text) {
-  return {.name = name, .kind = Kind::any, .text = text};
-}
 
 }  // namespace gannet

@@ -1,10 +1,7 @@
-// A number that a case gives as a function of time.
+// A number as a function of time, by points.
 #pragma once
 
 #include <vector>
-
-#include "base/keys.hpp"
-#include "base/units.hpp"
 
 namespace gannet {
 
@@ -27,13 +24,5 @@ double mean_over(const TimeTable& table, double from, double to);
 /// 0 before `from`, then rising evenly to 1 within `ramp` (a jump where ramp is 0) [s].
 /// Needs ramp >= 0. A jump holds from the time `from` on.
 TimeTable step_from(double from, double ramp);
-
-/// The table of times and values under `key`, written [[t, y], [t, y], ...], y of dimension `unit`.
-/// Complains (and returns what it has) where an item is no pair, a unit is wrong or the times do
-/// not rise. Throws nothing.
-TimeTable read_table(const Keys& keys, const char* key, const Dimension& unit);
-
-/// The key of such a table, for a schema.
-Key table_key(const char* name, const char* text);
 
 }  // namespace gannet
