@@ -153,7 +153,8 @@ int run_command(const RunOptions& asked) {
   progress.finish();
   if (stopped != 0) return end_stopped(*simulation, record, first, stopped);
   record.status = "completed";
-  record.exit_reason = "reached the end time";
+  record.exit_reason =
+      record.stop_reason.empty() ? "reached the end time" : "stopped: " + record.stop_reason;
   write_summary(simulation->scene, simulation->models, record);
   write_effects_csv(*simulation, first);
   fmt::print("{}", report(simulation->scene, simulation->models, record));

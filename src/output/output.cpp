@@ -8,6 +8,7 @@
 
 #include "output/history.hpp"
 #include "output/report.hpp"
+#include "output/stop.hpp"
 #include "output/stray_particles.hpp"
 #include "output/vtk_series.hpp"
 #include "sph/sph_state.hpp"
@@ -40,7 +41,8 @@ Schema output_schema() {
       {.name = "checkpoint",
        .kind = Kind::text,
        .text = "'every 5 min of wall time', 'every 2 ms' (of the run) or 'never'",
-       .fallback = "every 5 min of wall time"}};
+       .fallback = "every 5 min of wall time"},
+      stop_key()};
   return {{"", output}};
 }
 
@@ -80,7 +82,8 @@ void check_names(const Keys& keys, const Scene& scene) {
 bool acts(const Every& every, const RunRecord& record, const Step& s) {
   if (!s.coincides || record.folder.empty() || !(every.interval > 0)) return false;
   const OutputProgress& o = record.output;
-  const bool last = s.t >= record.plan.until && o.last_look < record.plan.until;
+  const bool ends = s.t >= record.plan.until || !record.stop_reason.empty();
+  const bool last = ends && o.last_look < record.plan.until;
   return last || due(every, o.last_look, s.t);
 }
 
@@ -139,11 +142,26 @@ void add_frames(const Keys& keys, Scene& scene, Models& models, RunRecord& recor
                                }});
 }
 
+/// Before what writes, so that the level at which a run stops is written.
+void add_stop(const Keys& keys, const Scene& scene, Models& models, RunRecord& record) {
+  const StopCheck check = make_stop(keys, scene);
+  if (!check) return;
+  models.list.back().plan.add({.name = "stop criterion",
+                               .reason = asked_for_at(keys.where("stop")),
+                               .stage = Stage::look,
+                               .reads = {"measures"},
+                               .run = [check, &record](const Step& s) {
+                                 if (!s.coincides || record.output.finished) return;
+                                 record.stop_reason = check(s.t);
+                               }});
+}
+
 void output_operations(const Keys& root, Scene& scene, Models& models) {
   RunRecord& record = scene.store.get<RunRecord>();
   const Keys keys = root.map("output");
   record.plan = read_plan(keys);
   check_names(keys, scene);
+  add_stop(keys, scene, models, record);
   add_histories(keys, scene, models, record);
   add_stray_looks(keys, scene, models, record);
   add_frames(keys, scene, models, record);
@@ -154,7 +172,9 @@ void output_operations(const Keys& root, Scene& scene, Models& models) {
        .run = [&record](const Step& s) {
          if (!s.coincides) return;
          record.output.last_look = s.t;
-         if (s.t >= record.plan.until) record.output.finished = true;
+         const bool stops = !record.stop_reason.empty();
+         if (stops) record.stop_reason += " at " + time_text(s.t);
+         if (stops || s.t >= record.plan.until) record.output.finished = true;
        }});
 }
 

@@ -53,6 +53,7 @@ struct RunRecord {
 
   std::string status = "running";  ///< completed, stopped, failed
   std::string exit_reason;
+  std::string stop_reason;  ///< of output.stop, from the level on at which it ends the run
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point wall_start = Clock::now();
