@@ -50,10 +50,12 @@ Effect with_presence(Effect effect) {
 
 std::vector<Effect> make_table() {
   return {
-      leapfrog_effect(),   // first: clears forces, kicks and drifts
-      gravity_effect(),    // says what gravity is before others ask the scene
-      sph_effect(),        //
-      viscosity_effect(),  //
+      leapfrog_effect(),      // first: clears forces, kicks and drifts
+      gravity_effect(),       // says what gravity is before others ask the scene
+      planes_effect(),        //
+      plane_motion_effect(),  // before lists are made: planes are where they are by then
+      sph_effect(),           //
+      viscosity_effect(),     //
       laminar_viscosity_effect(),
       tensile_cure_effect(),
       density_diffusion_effect(),
@@ -63,7 +65,6 @@ std::vector<Effect> make_table() {
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
       shell_effect(),          //
-      planes_effect(),         //
       plane_contact_effect(),  //
       contacts_effect(),       //
       pressure_effect(),       //

@@ -11,6 +11,9 @@ Effect gravity_effect();
 /// boundaries.NAME.planes and boundaries.NAME.plane: rigid walls, data of the scene.
 Effect planes_effect();
 
+/// boundaries.NAME.motion: the planes of the boundary move.
+Effect plane_motion_effect();
+
 /// boundaries.NAME: {nodes, fix, velocity, angular_velocity, factor}: prescribed motion.
 Effect prescribed_motion_effect();
 

@@ -208,22 +208,37 @@ void add_nodes_on_planes(const Keys& keys, NodesOnPlanes& c, Scene& scene, Model
     const double m = scene.nodes.x[static_cast<std::size_t>(i)].w;
     if (m > 0) rate2 = std::max(rate2, c.law.fixed / m);
   }
+  bool moves = false;
+  for (const Plane& plane : c.planes) {
+    moves = moves || plane.moves;
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+      if (scene.planes[k].name == plane.name) c.numbers.push_back(k);
+    }
+  }
   Model& model = models.of_part(scene, c.part);
   Operation op;
   op.name = "contact " + c.name;
   op.reason = asked_for_at(c.where);
   op.reads = {"x"};
   op.writes = {"f"};
-  op.run = [&scene, &c](const Step&) { nodes_on_planes(scene, c); };
+  op.run = [&scene, &c](const Step&) {
+    follow_planes(scene, c);
+    nodes_on_planes(scene, c);
+  };
   op.stable_dt = [dt = plane_step(rate2)] { return dt; };
   model.plan.add(std::move(op));
   LedgerEntry* entry = &models.ledger.entry("contact", c.name);
+  LedgerEntry* put_in = moves ? &models.ledger.entry("moving plane", c.name) : nullptr;
+  if (moves) put_in->external = true;
   Operation look;
   look.name = "contact " + c.name + ": work";
   look.reason = asked_for_at(c.where);
   look.stage = Stage::look;
-  look.run = [&scene, &c, entry](const Step& step) {
-    entry->add_work(-work_of_planes(scene, c, step));
+  look.run = [&scene, &c, entry, put_in](const Step& step) {
+    follow_planes(scene, c);
+    const PlaneSums sums = work_of_planes(scene, c, step);
+    entry->add_work(sums.put_in - sums.work);
+    if (put_in != nullptr) put_in->add_work(sums.put_in);
   };
   model.plan.add(std::move(look));
 }

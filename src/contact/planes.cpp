@@ -39,6 +39,7 @@ void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
     PlaneSums& s = sums[k % sums.size()];
     s.force += chunks[k].force;
     s.work += chunks[k].work;
+    s.put_in += chunks[k].put_in;
   }
 }
 
@@ -96,17 +97,21 @@ void set_laws(Scene& scene, ParticlesOnPlanes& state) {
 
 void add_look(Scene& scene, ParticlesOnPlanes& state, Model& model, Ledger& ledger) {
   std::vector<LedgerEntry*> entries;
+  std::vector<LedgerEntry*> put_in;
   for (const Plane& plane : scene.planes) {
     entries.push_back(&ledger.entry("contact", "plane " + plane.name));
+    put_in.push_back(plane.moves ? &ledger.entry("moving plane", plane.name) : nullptr);
+    if (plane.moves) put_in.back()->external = true;
   }
   Operation look;
   look.name = "contact: work at planes";
   look.reason = "rule: every plane stops every particle";
   look.stage = Stage::look;
-  look.run = [&scene, &state, entries](const Step& step) {
+  look.run = [&scene, &state, entries, put_in](const Step& step) {
     work_of_planes(scene, state, step);
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      entries[k]->add_work(-state.sums[k].work);
+      entries[k]->add_work(state.sums[k].put_in - state.sums[k].work);
+      if (put_in[k] != nullptr) put_in[k]->add_work(state.sums[k].put_in);
     }
   };
   model.plan.add(std::move(look));
@@ -180,7 +185,10 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
       const WorkPath path = work_path(scene.nodes, node, step);
       const Line& x = scene.nodes.x[static_cast<std::size_t>(node)];
       for (std::size_t k = 0; k < n_planes; ++k) {
-        sums[k].work += work_along(path, force_on_particle(scene.planes[k], state.law[part], x));
+        const Plane& plane = scene.planes[k];
+        const Vec3 f = force_on_particle(plane, state.law[part], x);
+        sums[k].work += work_along(path, f);
+        if (plane.moves) sums[k].put_in += work_along(path_of_plane(plane, xyz(x), step), f);
       }
     }
   });
@@ -208,18 +216,35 @@ void nodes_on_planes(Scene& scene, NodesOnPlanes& state) {
   }
 }
 
-Work work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
+PlaneSums work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
   const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
-  Work work = Work::Zero();
+  PlaneSums sums;
   std::size_t entry = 0;
   for (std::size_t k = 0; k < state.planes.size(); ++k) {
     for (Index i = range.begin; i < range.end; ++i, ++entry) {
       const Line& x = scene.nodes.x[static_cast<std::size_t>(i)];
       if (height(state.planes[k], x) >= state.law.distance) continue;
-      work += work_along(work_path(scene.nodes, i, step), force_on_node(state, k, entry, x));
+      const Vec3 f = force_on_node(state, k, entry, x);
+      sums.work += work_along(work_path(scene.nodes, i, step), f);
+      const Plane& plane = state.planes[k];
+      if (plane.moves) sums.put_in += work_along(path_of_plane(plane, xyz(x), step), f);
     }
   }
-  return work;
+  return sums;
+}
+
+WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step) {
+  const Vec3 arm = x - plane.point;
+  WorkPath path;
+  path.col(0) = (plane.velocity_old + plane.spin_old.cross(arm)) * (0.5 * step.dt_old);
+  path.col(1) = (plane.velocity + plane.spin.cross(arm)) * (0.5 * step.dt);
+  return path;
+}
+
+void follow_planes(const Scene& scene, NodesOnPlanes& state) {
+  for (std::size_t k = 0; k < state.numbers.size(); ++k) {
+    state.planes[k] = scene.planes[state.numbers[k]];
+  }
 }
 
 Effect plane_contact_effect() { return {.name = "contact with planes", .operations = operations}; }

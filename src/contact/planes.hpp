@@ -19,6 +19,8 @@ namespace gannet {
 struct PlaneSums {
   Vec3 force = Vec3::Zero();  ///< on the plane [N]
   Work work = Work::Zero();   ///< of the plane on what touches it, along work_path() [J]
+  /// Of the same forces along the plane's own path: what moves a plane puts it in [J].
+  Work put_in = Work::Zero();
 };
 
 /// How nodes meet planes: contact distance and stiffness of a node of mass m, k = rate2 m + fixed.
@@ -45,6 +47,7 @@ struct NodesOnPlanes {
   Location where;
   int part = -1;
   std::vector<Plane> planes;
+  std::vector<std::size_t> numbers;  ///< of them in the scene, to follow those that move
   PlaneLaw law;
   Array<double> offset;  ///< tracked: stress-free start penetration, planes after planes [m]
   Array<double> begun;   ///< tracked: 1 after the first level
@@ -69,8 +72,15 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
 /// the penetration that it started with as a stress-free offset, which shrinks as it moves out.
 void nodes_on_planes(Scene& scene, NodesOnPlanes& state);
 
-/// Work of the planes on the nodes of the part at this level [J].
-Work work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
+/// Work of the planes on the nodes of the part at this level, along the paths of the nodes and
+/// along those of the planes [J].
+PlaneSums work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
+
+/// Path of the point of a plane that is at x, as work_path() is that of a node.
+WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step);
+
+/// Takes over where the planes that move are now.
+void follow_planes(const Scene& scene, NodesOnPlanes& state);
 
 /// Step that springs of rate k/m allow beside what else acts on the nodes: 0.4 of 2/sqrt(k/m)
 /// (see contact_step()); no limit for 0.

@@ -55,6 +55,13 @@ struct Plane {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
   Location where;
+  // Of one that moves, kept by what moves it; point and normal are those of the stage.
+  bool moves = false;
+  bool turns = false;
+  Vec3 velocity = Vec3::Zero();      ///< of its point, mean over the step from this level [m/s]
+  Vec3 spin = Vec3::Zero();          ///< angular velocity, likewise [rad/s]
+  Vec3 velocity_old = Vec3::Zero();  ///< of the step that led to this level
+  Vec3 spin_old = Vec3::Zero();
 };
 
 /// A list of particle indices that someone keeps; permuted whenever particles are sorted.
@@ -93,7 +100,7 @@ class Store {
 struct Scene {
   std::string title;
   int dimension = 3;
-  Vec3 gravity = Vec3::Zero();
+  Vec3 gravity = Vec3::Zero();  ///< at the level of the last force stage, or the start [m/s^2]
   Nodes nodes;
   Range particles;             ///< the one range of nodes that are particles, sorted in space
   Array<Index> particle_part;  ///< part number of each particle (tracked field "part")

@@ -20,9 +20,10 @@ namespace gannet {
 
 namespace {
 
-/// The axis that a plane stands across; -1 for one that leans, which only
-/// pushes.
+/// The axis that a plane stands across; -1 for one that leans or moves, which
+/// only pushes.
 int axis_of(const Plane& plane, const Scene& scene) {
+  if (plane.moves) return -1;
   for (int d = 0; d < scene.dimension; ++d) {
     if (std::abs(plane.normal[d]) == 1) return d;
   }

@@ -156,7 +156,44 @@ TEST_CASE("planes: shell nodes rest on a plane, start penetration makes no force
   scene.nodes.v[1].z = 100.0 / 3 * 1e-3 / 2;
   Step step;
   step.dt = 1e-3;
-  const Work work = work_of_planes(scene, c, step);
+  const Work work = work_of_planes(scene, c, step).work;
   CHECK(work[0] == 0);  // there is no step before the first level
   CHECK(work[1] == Approx((200 * 200 + 100 * 100) / 3.0 * 1e-3 / 2 * 1e-3 / 2));
+}
+
+TEST_CASE("planes: a moving plane puts in its force along its own path", "[contact]") {
+  Scene scene;
+  Builder b;
+  b.node_mass = 3;
+  b.shape = [](double x, double y) { return Vec3(x, y, 0.02); };
+  b.fill(scene);
+  NodesOnPlanes c;
+  c.part = 0;
+  Plane floor{"floor", {0, 0, 0}, {0, 0, 1}, {}};
+  floor.moves = true;
+  floor.velocity = {0, 0, 3};
+  floor.velocity_old = {0, 0, 2};
+  floor.spin = {0, -5, 0};  // lifts what lies at x > 0
+  scene.planes = {floor};
+  c.planes = {floor};
+  c.numbers = {0};
+  c.law = {0.01, 0, 1e5};
+  c.offset.assign(4, 0);
+  c.begun.assign(1, 0);
+  c.sums.resize(1);
+  nodes_on_planes(scene, c);
+  scene.planes[0].point.z() = 0.015;  // came nearer: 5 mm inside of 10 mm
+  follow_planes(scene, c);
+  nodes_on_planes(scene, c);
+  double at_x = 0;
+  for (const Index i : {0, 1, 2, 3}) {
+    CHECK(scene.nodes.f[i].z == Approx(500));
+    at_x += scene.nodes.x[i].x;
+  }
+  Step step;
+  step.dt_old = 1e-3;
+  step.dt = 2e-3;
+  const Work put_in = work_of_planes(scene, c, step).put_in;
+  CHECK(put_in[0] == Approx(4 * 500 * 2 * 0.5e-3));
+  CHECK(put_in[1] == Approx(500 * (4 * 3 + 5 * at_x) * 1e-3));
 }

@@ -1,0 +1,124 @@
+// Planes that move: the work of a piston, the momentum of a tank that sways.
+#include <cmath>
+
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+constexpr double A = 0.005;  // [m]
+constexpr double w = 25;     // [rad/s]
+
+/// Water 0.3 x 0.1 m in a tank in the plane.
+std::string text(const std::string& boundaries) {
+  return fmt::format(R"(gannet: 1
+title: Walls that move
+dimension: 2
+let: {{A: {} m, w: {} rad/s}}
+materials: {{water: {{card: water, c0: 15 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: 10 mm}}
+    fill: {{box: {{from: [0, 0, 0], to: [0.3 m, 0.1 m, 0]}}}}
+    start: hydrostatic
+boundaries:
+{}loads: {{gravity: [0, -9.81 m/s^2, 0]}}
+effects: {{viscosity: {{type: monaghan, alpha: 0.05}}}}
+output: {{until: 0.5 s}}
+)",
+                     A, w, boundaries);
+}
+
+/// What a level shows, taken where forces and positions belong together.
+struct Level {
+  double t = 0;
+  double dt_mean = 0;  ///< (dt_old + dt)/2
+  double p_x = 0;      ///< momentum after the kick
+  double scale = 0;    ///< sum m |v|
+  double force = 0;    ///< of the water on the planes along x
+};
+
+std::vector<Level> run(Simulation& s, const std::vector<std::string>& planes, double until) {
+  std::vector<Level> levels;
+  s.models.list.front().plan.add(
+      {.name = "look of the test", .stage = Stage::look, .run = [&](const Step& step) {
+         Level level{step.t, 0.5 * (step.dt_old + step.dt)};
+         const Total p = linear_momentum(s.scene);
+         level.p_x = p.sum.x();
+         level.scale = p.scale;
+         for (const std::string& plane : planes) {
+           level.force += measured(s.scene, "plane." + plane + ".force", 0);
+         }
+         levels.push_back(level);
+       }});
+  run_until(s, until, [] {});
+  return levels;
+}
+
+}  // namespace
+
+TEST_CASE("piston: the ledger holds the work of its force along its way", "[physics]") {
+  const auto s = make_simulation_of_text(
+      text("  piston: {planes: {x: 0}, motion: {velocity: [\"A*w*sin(w*t)\", 0, 0]}}\n"
+           "  end: {plane: {point: [0.3 m, 0, 0], normal: [-1, 0, 0]}}\n"
+           "  floor: {planes: {y: 0}}\n"));
+  const auto levels = run(*s, {"piston.x_min"}, 0.5);
+  const auto way = [](double t) { return A * (1 - std::cos(w * t)); };
+  double work = 0;  // of the piston on the water
+  double size = 0;
+  for (std::size_t n = 1; n < levels.size(); ++n) {
+    const double step = way(levels[n].t) - way(levels[n - 1].t);
+    const double here = -0.5 * (levels[n].force + levels[n - 1].force) * step;
+    work += here;
+    size += std::abs(here);
+  }
+  const double ledger = ledger_sum(*s, "moving plane");
+  const double error = energy_error(*s);
+  fmt::print(
+      "piston, 0.5 s: work {:.6g} J of {:.6g} J to and fro, ledger {:.6g} J, energy error "
+      "{:.2e}\n",
+      work, size, ledger, error);
+  CHECK(size > 0.01);
+  // Both add up the same trapezoids; the way is exact to the rounding of its sum.
+  CHECK(ledger == Approx(work).margin(1e-9 * size));
+  CHECK(error < 2e-3);
+}
+
+TEST_CASE("sway: the force on the walls is the change of momentum", "[physics]") {
+  const auto s = make_simulation_of_text(
+      text("  tank: {planes: {x: [0, 0.3 m], y: 0}, motion: {displacement: [\"A*sin(w*t)\", 0, "
+           "0]}}\n"));
+  const auto levels = run(*s, {"tank.x_min", "tank.x_max"}, 0.3);
+  double worst = 0;
+  double moved = 0;
+  for (std::size_t n = 1; n < levels.size(); ++n) {
+    const double change = levels[n].p_x - levels[n - 1].p_x;
+    worst =
+        std::max(worst, std::abs(change + levels[n].force * levels[n].dt_mean) / levels[n].scale);
+    moved = std::max(moved, std::abs(levels[n].p_x));
+  }
+  fmt::print("sway, 0.3 s: dP = -F dt to {:.2e} of sum m |v|; largest P {:.3g} kg m/s\n", worst,
+             moved);
+  // 30 kg that follow A w sin: a good share of 3.75 kg m/s.
+  CHECK(moved > 1);
+  CHECK(worst < 1e-12);
+}
+
+TEST_CASE("roll: a tank that turns keeps its water and its energy", "[physics]") {
+  const auto s = make_simulation_of_text(
+      text("  tank: {planes: {x: [0, 0.3 m], y: 0}, motion: {rotation: {axis: [0, 0, 1], centre: "
+           "[0.15 m, 0, 0], angle: \"0.05*sin(w*t)\"}}}\n"));
+  run(*s, {}, 0.3);
+  double lowest = 1;
+  for_particles(s->scene, [&](std::size_t, const Vec3& x, const Vec3&) {
+    for (const Plane& plane : s->scene.planes) {
+      lowest = std::min(lowest, plane.normal.dot(x - plane.point));
+    }
+  });
+  fmt::print("roll, 0.3 s: nearest {:.3g} m to a plane, energy error {:.2e}\n", lowest,
+             energy_error(*s));
+  CHECK(lowest > 0);
+  CHECK(energy_error(*s) < 2e-3);
+}
