@@ -33,6 +33,13 @@ struct ImageKind {
   Range ghosts;  ///< numbers of the ghosts, from 0
 };
 
+/// A mirror wall that a plane of the scene moves.
+struct MovingWall {
+  Eigen::Index axis = 0;
+  bool lower = true;  ///< the lower end of the direction
+  std::size_t plane = 0;
+};
+
 /// Directions in which the domain repeats or ends at a wall, and the images
 /// that follow.
 struct Halo {
@@ -44,6 +51,9 @@ struct Halo {
   Vec3 low = Vec3::Zero();   ///< lower faces of the domain [m], where periodic or a wall
   Vec3 high = Vec3::Zero();  ///< upper faces [m]; in periodic directions high -
                              ///< low is the period
+  /// Of those walls, the ones that move: low and high are then where they were at
+  /// the last build (tracked), and moving_walls.hpp says where they are.
+  std::vector<MovingWall> moving;
   /// Source of ghost g, whose node is particles.end + g: index among the
   /// particles.
   Array<Index> source;

@@ -2,32 +2,72 @@
 // of it. Beyond the plane stand images of the particles near it, with the same
 // density and pressure and the mirrored velocity, so that sums over neighbours
 // are as complete at a wall as within the water:
-//   x_image = x - 2 ((x - x_plane) . n) n,   v_image = v - 2 (v . n) n
+//   x_image = x - 2 ((x - x_plane) . n) n,   v_image = v - 2 ((v - v_plane) . n) n
 // Without them the water at a wall is pulled into the gap that the kernel finds
 // there, and a tank at rest does not keep its pressure. Water and images
 // together are symmetric about the plane: nothing flows through it, it does not
 // hold back what slides along, and energy is kept as without it. The penalty of
 // the plane (contact/planes.hpp) stays for what comes nearer than half a
-// spacing.
+// spacing. Planes that move along take their images with them
+// (moving_walls.hpp); planes that turn mirror nothing.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "base/parallel.hpp"
+#include "plan/effect.hpp"
 #include "sph/effects.hpp"
+#include "sph/moving_walls.hpp"
 #include "sph/sph_state.hpp"
 
 namespace gannet {
 
 namespace {
 
-/// The axis that a plane stands across; -1 for one that leans or moves, which
+/// The axis that a plane stands across; -1 for one that leans or turns, which
 /// only pushes.
 int axis_of(const Plane& plane, const Scene& scene) {
-  if (plane.moves) return -1;
+  if (plane.turns) return -1;
   for (int d = 0; d < scene.dimension; ++d) {
     if (std::abs(plane.normal[d]) == 1) return d;
   }
   return -1;
+}
+
+/// Where walls were when images were made is state: a restart makes the same.
+void track_walls(Halo& halo, Scene& scene) {
+  const auto track = [&](const char* name, Vec3& place) {
+    Field f;
+    f.name = name;
+    f.unit = "m";
+    f.over = Over::scene;
+    f.components = 3;
+    const auto size = static_cast<std::ptrdiff_t>(sizeof(double));
+    f.layout = {3 * size, 3 * size, size, 1};
+    f.owner = "mirror_walls";
+    f.base = [&place] { return reinterpret_cast<std::byte*>(place.data()); };
+    f.count = [] { return Index{1}; };
+    scene.fields.push_back(std::move(f));
+  };
+  track("halo.low", halo.low);
+  track("halo.high", halo.high);
+}
+
+/// The plane that mirrors at an end of a direction: the innermost one at the
+/// start. Walls that move are noted.
+void note_moving_walls(Halo& halo, Scene& scene) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    const int d = axis_of(plane, scene);
+    if (!plane.moves || d < 0 || halo.periodic[static_cast<std::size_t>(d)]) continue;
+    const bool lower = plane.normal[d] > 0;
+    if ((lower ? halo.low : halo.high)[d] != plane.point[d]) continue;
+    const bool known = std::ranges::any_of(
+        halo.moving, [&](const MovingWall& wall) { return wall.axis == d && wall.lower == lower; });
+    if (!known) halo.moving.push_back({d, lower, k});
+  }
+  if (!halo.moving.empty()) track_walls(halo, scene);
 }
 
 /// The innermost plane of each end of a direction mirrors.
@@ -44,64 +84,71 @@ void make_state(const Keys&, Scene& scene) {
     at = !wall ? here : (lower ? std::max(at, here) : std::min(at, here));
     wall = true;
   }
+  note_moving_walls(halo, scene);
 }
 
-/// Force of one image on the water in front of it along an axis [N]: the
-/// pressure terms of the particle pair pass.
-double force_of_image(const SphState& sph, const Scene& scene, Index image, int d) {
-  const Line* x = scene.nodes.x.data() + scene.particles.begin;
-  const double reach = sph.kernel.reach();
-  const auto p_rho2 = [&](Index k) { return sph.p[k] / (sph.rho[k] * sph.rho[k]); };
-  const double own = p_rho2(image);
-  double f = 0;
-  for (Index k = 0; k < scene.particles.size(); ++k) {
-    const Vec3 r_ij = xyz(x[k]) - xyz(x[image]);
-    const double r2 = r_ij.squaredNorm();
-    if (r2 >= reach * reach) continue;
-    const double F = sph.kernel.F(std::sqrt(r2));
-    f -= sph.m * sph.m * (p_rho2(k) + own) * F * r_ij[d];
+/// The end of a direction where a plane mirrors; nothing for one that does not.
+/// At the start: walls that move are then where their planes are.
+std::optional<MovingWall> mirrored_at(const Halo& halo, const Scene& scene, std::size_t k) {
+  const Plane& plane = scene.planes[k];
+  const int d = axis_of(plane, scene);
+  if (d < 0) return std::nullopt;
+  const bool lower = plane.normal[d] > 0;
+  const bool wall = (lower ? halo.wall_low : halo.wall_high)[static_cast<std::size_t>(d)];
+  if (!wall || (lower ? halo.low : halo.high)[d] != plane.point[d]) return std::nullopt;
+  return MovingWall{d, lower, k};
+}
+
+/// The work that the motion of a wall takes: the force of its images on the
+/// water along its own path.
+void add_work(const SphState& sph, Scene& scene, Models& models, const MovingWall& wall) {
+  const Plane& plane = scene.planes[wall.plane];
+  LedgerEntry& work = models.ledger.entry("moving mirror", plane.name);
+  work.external = true;
+  models.of_node(scene.particles.begin)
+      .plan.add({.name = "work of mirror " + plane.name,
+                 .reason = asked_for_at(plane.where),
+                 .stage = Stage::look,
+                 .reads = {"x", "rho", "p"},
+                 .run = [&sph, &scene, &work, wall](const Step& step) {
+                   const Plane& now = scene.planes[wall.plane];
+                   const double force = force_of_images(sph, scene, wall);
+                   work.add_work({0.5 * step.dt_old * force * now.velocity_old[wall.axis],
+                                  0.5 * step.dt * force * now.velocity[wall.axis]});
+                 }});
+}
+
+/// Images go with walls that move, after every copy to them.
+void add_moving_walls(const SphState& sph, Scene& scene, Models& models) {
+  Plan& plan = models.of_node(scene.particles.begin).plan;
+  for (const Stage stage : {Stage::half_drift, Stage::rates, Stage::drift}) {
+    plan.add({.name = fmt::format("mirror: images go with their walls after {}", name_of(stage)),
+              .reason = "rule: walls across an axis mirror the water, also while they move",
+              .stage = stage,
+              .reads = {"planes", "x", "v"},
+              .writes = {"ghosts"},
+              .run = [&sph, &scene](const Step&) { move_images(sph.halo, scene); }});
   }
-  return f;
-}
-
-/// Pressure of the water on a mirror wall along its axis, the reaction to the
-/// force of its images [N]. Every image against every particle: for when it is
-/// looked at, not for each step.
-double pressure_force(const SphState& sph, const Scene& scene, int d, bool lower) {
-  const double at = (lower ? sph.halo.low : sph.halo.high)[d];
-  const Index first = scene.particles.size();
-  return -parallel_sum(scene.nodes.n_ghosts, node_chunk, [&](Index begin, Index end) {
-    double sum = 0;
-    for (Index g = begin; g < end; ++g) {
-      const Image& image = sph.halo.image_of(g);
-      const bool beyond = image.sign[d] < 0 && image.shift[d] == 2 * at;
-      if (beyond) sum += force_of_image(sph, scene, first + g, d);
-    }
-    return sum;
-  });
+  for (const MovingWall& wall : sph.halo.moving) add_work(sph, scene, models, wall);
 }
 
 /// What the planes already measure is the force of their penalty: adds the
 /// pressure.
-void add_operations(const Keys&, Scene& scene, Models&) {
+void add_operations(const Keys&, Scene& scene, Models& models) {
   if (scene.particles.empty()) return;
   const SphState& sph = scene.store.get<SphState>();
-  for (const Plane& plane : scene.planes) {
-    const int d = axis_of(plane, scene);
-    if (d < 0) continue;
-    const bool lower = plane.normal[d] > 0;
-    const auto at = static_cast<std::size_t>(d);
-    const bool mirrors = (lower ? sph.halo.wall_low : sph.halo.wall_high)[at] &&
-                         (lower ? sph.halo.low : sph.halo.high)[d] == plane.point[d];
-    if (!mirrors) continue;
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const auto wall = mirrored_at(sph.halo, scene, k);
+    if (!wall) continue;
     for (Measure& m : scene.measures) {
-      if (m.name != "plane." + plane.name + ".force") continue;
-      m.sample = [&sph, &scene, d, lower, penalty = m.sample](double* out) {
+      if (m.name != "plane." + scene.planes[k].name + ".force") continue;
+      m.sample = [&sph, &scene, wall, penalty = m.sample](double* out) {
         penalty(out);
-        out[d] += pressure_force(sph, scene, d, lower);
+        out[wall->axis] -= force_of_images(sph, scene, *wall);
       };
     }
   }
+  if (!sph.halo.moving.empty()) add_moving_walls(sph, scene, models);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "search/spatial_sort.hpp"
+#include "sph/moving_walls.hpp"
 
 namespace gannet {
 
@@ -28,6 +29,7 @@ void build_from_x_build(SphState& sph, Scene& scene) {
     }
   });
   copy_out(halo, scene);
+  move_images(halo, scene);
   build_cluster_list(sph.x_build, n, reach(sph), sph.list);
   start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age);
   ++sph.n_builds;
@@ -83,7 +85,8 @@ struct Motion {
 /// Whether a particle that was too far from a wall to have an image has come within 2 h of it, of
 /// those in one cell. Water that falls on a floor as a whole does not move relative to itself, so
 /// that the age of the lists does not tell.
-bool image_is_missing(const SphState& sph, Index n, const Motion& motion, Index cell) {
+bool image_is_missing(const SphState& sph, Index n, const Motion& motion, const WallsGone& gone,
+                      Index cell) {
   const Halo& halo = sph.halo;
   const double near = sph.kernel.reach();
   const auto came_near = [&](const Vec3& from, const Vec3& to) {
@@ -91,8 +94,12 @@ bool image_is_missing(const SphState& sph, Index n, const Motion& motion, Index 
       const auto at = static_cast<std::size_t>(d);
       const double low = halo.low[d];
       const double high = halo.high[d];
-      if (halo.wall_low[at] && from[d] - low > reach(sph) && to[d] - low < near) return true;
-      if (halo.wall_high[at] && high - from[d] > reach(sph) && high - to[d] < near) return true;
+      if (halo.wall_low[at] && from[d] - low > reach(sph) && to[d] - low - gone.low[d] < near) {
+        return true;
+      }
+      if (halo.wall_high[at] && high - from[d] > reach(sph) && high + gone.high[d] - to[d] < near) {
+        return true;
+      }
     }
     return false;
   };
@@ -106,14 +113,14 @@ bool image_is_missing(const SphState& sph, Index n, const Motion& motion, Index 
 }
 
 /// The same of all cells. Only who moved towards a wall by the skin can have come that near.
-bool image_is_missing(const SphState& sph, Index n, const Motion& motion) {
+bool image_is_missing(const SphState& sph, Index n, const Motion& motion, const WallsGone& gone) {
   const Halo& halo = sph.halo;
   const double least = (1 - 1e-6) * sph.skin;
   const auto moved = [&](const MotionBox& box) {
     for (std::size_t d = 0; d < 3; ++d) {
       const auto k = static_cast<Eigen::Index>(d);
-      if (halo.wall_low[d] && box.low[k] < -least) return true;
-      if (halo.wall_high[d] && box.high[k] > least) return true;
+      if (halo.wall_low[d] && box.low[k] - gone.low[k] < -least) return true;
+      if (halo.wall_high[d] && box.high[k] - gone.high[k] > least) return true;
     }
     return false;
   };
@@ -122,7 +129,7 @@ bool image_is_missing(const SphState& sph, Index n, const Motion& motion) {
              [&](Index begin, Index end) {
                for (Index c = begin; c < end; ++c) {
                  const MotionBox& box = sph.age.motion[c];
-                 if (moved(box) && image_is_missing(sph, n, motion, c)) return 1;
+                 if (moved(box) && image_is_missing(sph, n, motion, gone, c)) return 1;
                }
                return 0;
              },
@@ -138,6 +145,7 @@ void rebuild_lists(SphState& sph, Scene& scene) {
     sph.halo.clear_images();
     resize_ghosts(sph.halo, scene);
     wrap_particles(sph.halo, scene);
+    follow_walls(sph.halo, scene);
   }
   sort_particles(scene, sph.dx);
   sph.x_build.resize(static_cast<std::size_t>(n));
@@ -153,12 +161,14 @@ void restore_lists(SphState& sph, Scene& scene) { build_from_x_build(sph, scene)
 bool lists_are_stale(SphState& sph, const Scene& scene, double dt_half) {
   const Index n = scene.particles.size();
   const Motion motion(sph, scene, dt_half);
+  const WallsGone gone = walls_gone(sph.halo, scene, dt_half);
   measure_motion(sph.age, [&](Index source) -> Vec3 {
     if (source < n) return motion.of(source);
     const Index g = source - n;
-    return sph.halo.image_of(g).vector(motion.of(sph.halo.source[g]));
+    const Image& image = sph.halo.image_of(g);
+    return image.vector(motion.of(sph.halo.source[g])) + gone.of_image(sph.halo, image);
   });
-  return outdated(sph.age) || (sph.halo.has_walls() && image_is_missing(sph, n, motion));
+  return outdated(sph.age) || (sph.halo.has_walls() && image_is_missing(sph, n, motion, gone));
 }
 
 }  // namespace gannet

@@ -61,6 +61,10 @@ Sample periodic_sample() {
   return {[] { return std::make_unique<WatchedRun>(periodic_plane); }, 150, false};
 }
 
+Sample shaken_sample() {
+  return {[] { return std::make_unique<WatchedRun>(shaken_tank); }, 150, false};
+}
+
 /// Runs a sample from its start; returns it at its end.
 std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
   set_threads(n_threads);
@@ -205,6 +209,15 @@ TEST_CASE("same bits: dam break, 1, 2, 3 and 5 threads", "[bits]") { check_threa
 TEST_CASE("same bits: periodic shear layer with viscosity and XSPH, 1, 2, 3 and 5 threads",
           "[bits]") {
   check_threads(periodic_sample());
+}
+
+TEST_CASE("same bits: a tank of moving walls and formulas, 1, 2, 3 and 5 threads", "[bits]") {
+  check_threads(shaken_sample());
+}
+
+TEST_CASE("same bits: a tank of moving walls and formulas, cut five times, as if never cut",
+          "[bits]") {
+  check_restart(shaken_sample());
 }
 
 TEST_CASE("same bits: every term of the pair passes, 1, 2, 3 and 5 threads", "[bits]") {

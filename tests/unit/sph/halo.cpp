@@ -7,6 +7,7 @@
 
 #include "pool.hpp"
 #include "scene/draft.hpp"
+#include "sph/moving_walls.hpp"
 
 using namespace gannet;
 
@@ -237,4 +238,41 @@ TEST_CASE("halo: ghosts hold what their sources hold after every copy of a step"
   CHECK(n_copies == 180);
   CHECK(pool.sph().n_builds > 1);
   CHECK(scene.nodes.n_ghosts > 300);
+}
+
+TEST_CASE("halo: images go with a wall that moves, and get its velocity twice", "[sph]") {
+  Three three({{0.1, 0, 0}, {0.9, 0, 0}, {0.5, 0, 0}});
+  Scene& scene = three.scene;
+  Plane plane{"wall", {0, 0, 0}, {1, 0, 0}, {}};
+  plane.moves = true;
+  scene.planes = {plane};
+  Halo halo;
+  halo.wall_low = {true, false, false};
+  halo.wall_high = {true, false, false};
+  halo.low = {0, 0, 0};
+  halo.high = {1, 0, 0};
+  halo.moving = {{0, true, 0}};
+  for (Index i = 0; i < 3; ++i) scene.nodes.v[i] = {2, 3, 0, 0.5};
+  choose_images(scene.nodes.x.data(), 3, 0.2, halo);
+  resize_ghosts(halo, scene);
+  REQUIRE(scene.nodes.n_ghosts == 2);
+  copy_out(halo, scene);
+  scene.planes[0].point.x() = 0.03;
+  scene.planes[0].velocity.x() = 5;
+  for (int twice = 0; twice < 2; ++twice) move_images(halo, scene);  // says where, not how far
+  // The particle at 0.1 behind the lower wall at 0.03: 0.06 - 0.1; the one at 0.9 behind 1.
+  for (Index g = 0; g < 2; ++g) {
+    const Line& x = scene.nodes.x[3 + g];
+    const Line& v = scene.nodes.v[3 + g];
+    const bool low = halo.image_of(g).shift.x() == 0;
+    CHECK(x.x == Approx(low ? -0.04 : 1.1));
+    CHECK(v.x == (low ? 8 : -2));
+    CHECK(v.y == 3);
+  }
+  const WallsGone gone = walls_gone(halo, scene, 0.01);
+  CHECK(gone.low.x() == Approx(0.08));
+  CHECK(gone.high.x() == 0);
+  follow_walls(halo, scene);
+  CHECK(halo.low.x() == 0.03);
+  CHECK(walls_gone(halo, scene, 0).low.x() == 0);
 }
