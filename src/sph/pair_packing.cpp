@@ -38,7 +38,7 @@ void pack_double(const ParticleView& view, Array<PackedParticle>& lines) {
   });
 }
 
-/// Smallest and largest position, largest size of a velocity component, mean of `last`.
+/// Smallest and largest position, largest size of a velocity component.
 struct Extent {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());

@@ -39,7 +39,7 @@ Schema schema() {
       .kind = Kind::map,
       .text = "particles drift apart where they are crowded; the free surface is left alone"};
   shifting.keys = {{.name = "coefficient",
-                    .text = "largest speed of the drift over twice the largest speed of the flow",
+                    .text = "largest speed of the drift over half the largest speed of the flow",
                     .fallback = "0.5",
                     .limits = between(0, 2)}};
   return {{"effects", shifting}};
