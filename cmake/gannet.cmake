@@ -9,8 +9,10 @@ target_compile_options(gannet_flags INTERFACE
   -Wno-missing-field-initializers)
 target_include_directories(gannet_flags INTERFACE ${PROJECT_SOURCE_DIR}/src
                                                   ${PROJECT_SOURCE_DIR}/include)
+# What is looked at is the solver: the tests around it only have to compile fast.
+add_library(gannet_sanitizers INTERFACE)
 if(GANNET_SANITIZE)
-  target_compile_options(gannet_flags INTERFACE -fsanitize=address,undefined
+  target_compile_options(gannet_sanitizers INTERFACE -fsanitize=address,undefined
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(gannet_flags INTERFACE -fsanitize=address,undefined)
 endif()
@@ -18,7 +20,8 @@ endif()
 # Headers that nearly every file reads, parsed once: Eigen alone takes three of the four seconds of a
 # small file. Kernels (*.isa.cpp) do without, for they may not include them.
 add_library(gannet_common STATIC ${PROJECT_SOURCE_DIR}/cmake/common.cpp)
-target_link_libraries(gannet_common PUBLIC gannet_flags Eigen3::Eigen TBB::tbb fmt::fmt)
+target_link_libraries(gannet_common PUBLIC gannet_flags Eigen3::Eigen TBB::tbb fmt::fmt
+                                    PRIVATE gannet_sanitizers)
 target_precompile_headers(gannet_common PRIVATE
   <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath>
   <cstdint> <deque> <functional> <limits> <map> <memory> <string> <vector>)
@@ -29,17 +32,18 @@ function(gannet_room NAME)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ISA;USES" ${ARGN})
   set(target gannet_${NAME})
   add_library(${target} STATIC ${ROOM_SOURCES})
-  target_link_libraries(${target} PUBLIC gannet_common ${ROOM_USES})
+  target_link_libraries(${target} PUBLIC gannet_common ${ROOM_USES} PRIVATE gannet_sanitizers)
   target_precompile_headers(${target} REUSE_FROM gannet_common)
   foreach(set avx2 avx512)
     if(ROOM_ISA)
       set(objects ${target}_${set})
       add_library(${objects} OBJECT ${ROOM_ISA})
-      target_link_libraries(${objects} PRIVATE gannet_flags)
+      target_link_libraries(${objects} PRIVATE gannet_flags gannet_sanitizers)
       target_compile_definitions(${objects} PRIVATE GANNET_ISA_NS=${set})
       # Terms that a pass does not have leave their values unset; g++ 12 does not see that the flag
       # that reads them is the one that set them.
-      target_compile_options(${objects} PRIVATE -O3 -Wno-maybe-uninitialized)
+      target_compile_options(${objects} PRIVATE $<IF:$<BOOL:${GANNET_SANITIZE}>,-O1,-O3>
+                             -Wno-maybe-uninitialized)
       if(GANNET_SANITIZE)
         # Instrumented, the two halves of an AVX2 vector may be contracted to fused multiply-adds
         # differently, so that the bits of an element would depend on the lane it is in.
