@@ -43,7 +43,11 @@ Schema output_schema() {
        .text = "'every 5 min of wall time', 'every 2 ms' (of the run) or 'never'",
        .fallback = "every 5 min of wall time"},
       stop_key()};
-  return {{"", output}};
+  Key filter{.name = "filter",
+             .kind = Kind::choice,
+             .text = "low-pass filter of SAE J211: NAME_filtered.csv beside NAME.csv",
+             .choices = {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}};
+  return {{"", output}, {"probes.*", filter}};
 }
 
 /// What `read` makes of the text of a key; its complaint where it cannot.
@@ -67,8 +71,29 @@ OutputPlan read_plan(const Keys& keys) {
   return plan;
 }
 
-void check_names(const Keys& keys, const Scene& scene) {
+/// Filters that probes ask for. A class of F needs ten values in 1/F (SAE J211-1).
+void read_filters(const Keys& root, RunRecord& record) {
+  if (!root.has("probes")) return;
+  for (const std::string& name : root.map("probes").names()) {
+    const Keys probe = root.map("probes").map(name);
+    if (!probe.has("filter")) continue;
+    const double cfc = std::stod(probe.word("filter").substr(4));
+    const double interval = record.plan.history.interval;
+    if (!(interval > 0) || interval > 1.0001 / (10 * cfc)) {
+      probe.complain("filter",
+                     fmt::format("needs a line every {} or more often (ten times the class of {} "
+                                 "Hz); output.history is {}",
+                                 time_text(1 / (10 * cfc)), cfc,
+                                 interval > 0 ? "every " + time_text(interval) : "'never'"));
+      continue;
+    }
+    record.filters.push_back({file_name_of(name), cfc});
+  }
+}
+
+void check_names(const Keys& keys, const Scene& scene, const RunRecord& record) {
   std::set<std::string> taken{"energy"};
+  for (const HistoryFilter& f : record.filters) taken.insert(f.history + "_filtered");
   for (const Measure& m : scene.measures) {
     const std::string name = history_name(m);
     if (!name.empty() && !taken.insert(name).second) {
@@ -160,7 +185,8 @@ void output_operations(const Keys& root, Scene& scene, Models& models) {
   RunRecord& record = scene.store.get<RunRecord>();
   const Keys keys = root.map("output");
   record.plan = read_plan(keys);
-  check_names(keys, scene);
+  read_filters(root, record);
+  check_names(keys, scene, record);
   add_stop(keys, scene, models, record);
   add_histories(keys, scene, models, record);
   add_stray_looks(keys, scene, models, record);

@@ -38,6 +38,12 @@ struct OutputProgress {
   std::vector<std::string> not_on_disk;
 };
 
+/// A history that is filtered at the end of the run.
+struct HistoryFilter {
+  std::string history;  ///< name of its table: "keel_pressure"
+  double cfc = 0;       ///< channel frequency class [Hz]
+};
+
 struct RunRecord {
   std::string case_file;
   std::string case_hash;  ///< what a checkpoint must match
@@ -49,6 +55,7 @@ struct RunRecord {
   std::string name;    ///< of the case: names the .pvd
   std::string folder;  ///< output folder; empty: nothing is written
   OutputPlan plan;     ///< when to write what
+  std::vector<HistoryFilter> filters;
   OutputProgress output;
 
   std::string status = "running";  ///< completed, stopped, failed

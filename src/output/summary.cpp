@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.hpp"
+#include "output/cfc_filter.hpp"
 #include "output/files.hpp"
 #include "output/report.hpp"
 #include "time/guards.hpp"
@@ -95,6 +96,7 @@ std::string summary_text(Scene& scene, const Models& models, const RunRecord& re
 }
 
 void write_summary(Scene& scene, const Models& models, const RunRecord& record) {
+  write_filtered_histories(record);
   write_whole_file(record.folder + "/summary.json", summary_text(scene, models, record),
                    Durable::yes);
 }
