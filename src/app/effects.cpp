@@ -73,11 +73,12 @@ std::vector<Effect> make_table() {
       with_presence(mirror_walls_effect()),  // images at walls; adds to what planes measure
       prescribed_motion_effect(),            // after all forces: measures the reactions
       probes_effect(),                       //
-      sph_probes_effect(),                   //
-      guards_effect(),                       // after all energies are known
-      study_effect(),                        // keys only: what `gannet study` varies and measures
-      hard_effect(),                         // keys only: limits that `gannet hard` holds a case to
-      output_effect(),                       // last: looks at everything, changes nothing
+      wall_force_effect(),
+      sph_probes_effect(),  //
+      guards_effect(),      // after all energies are known
+      study_effect(),       // keys only: what `gannet study` varies and measures
+      hard_effect(),        // keys only: limits that `gannet hard` holds a case to
+      output_effect(),      // last: looks at everything, changes nothing
   };
 }
 

@@ -23,6 +23,9 @@ Effect pressure_effect();
 /// loads.NAME.force: a total force spread evenly over a set of nodes.
 Effect nodal_force_effect();
 
+/// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
+Effect wall_force_effect();
+
 /// probes.NAME: displacement and velocity of nodes, force of a contact or a boundary.
 Effect probes_effect();
 

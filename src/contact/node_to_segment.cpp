@@ -108,11 +108,19 @@ void track_fields(Scene& scene, NodeToSegment& c, bool friction) {
   track(plain_field(prefix + "search_numbers", "", "", Over::scene, c.search_numbers, 1, none));
 }
 
-void add_measures(Scene& scene, NodeToSegment& c) {
+/// Friction acts along the surface, as viscosity does, and counts as such in probes.
+void add_measures(Scene& scene, NodeToSegment& c, bool friction) {
   const std::string prefix = "contact." + c.name + ".";
   scene.measures.push_back({prefix + "force", "N", {"x", "y", "z"}, [&c](double* out) {
                               for (int k = 0; k < 3; ++k) out[k] = c.scattered.on_surface[k];
                             }});
+  if (friction) {
+    scene.measures.push_back({prefix + "viscous_force", "N", {"x", "y", "z"}, [&c](double* out) {
+                                Vec3 sum = Vec3::Zero();
+                                for (const Vec3& f : c.forces.friction) sum -= f;
+                                for (int k = 0; k < 3; ++k) out[k] = sum[k];
+                              }});
+  }
   scene.measures.push_back({prefix + "active", "1", {"value"}, [&c](double* out) {
                               *out = static_cast<double>(c.scattered.active);
                             }});
@@ -176,7 +184,7 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());
   track_fields(scene, c, friction);
-  add_measures(scene, c);
+  add_measures(scene, c, friction);
   scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
   scene.after_restart.push_back([&scene, &c] {
     if (c.search_numbers[0] >= 0) make_list(scene, c);

@@ -15,9 +15,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "plan/effect.hpp"
 #include "sph/effects.hpp"
+#include "sph/ghost_force.hpp"
 #include "sph/moving_walls.hpp"
 #include "sph/sph_state.hpp"
 
@@ -132,21 +135,50 @@ void add_moving_walls(const SphState& sph, Scene& scene, Models& models) {
   for (const MovingWall& wall : sph.halo.moving) add_work(sph, scene, models, wall);
 }
 
-/// What the planes already measure is the force of their penalty: adds the
-/// pressure.
+/// Force on a mirror wall along its axis, the reaction to that of its images on the water: along
+/// the wall the images pull as much one way as the other.
+struct WallForce {
+  double total = 0;    ///< [N]
+  double viscous = 0;  ///< its viscous part [N]
+};
+
+WallForce force_on_wall(SphState& sph, Scene& scene, const MovingWall& wall) {
+  const Eigen::Index d = wall.axis;
+  const double at = (wall.lower ? sph.halo.low : sph.halo.high)[d];
+  std::vector<char> behind;
+  for (const ImageKind& kind : sph.halo.kinds) {
+    behind.push_back(kind.image.sign[d] < 0 && kind.image.shift[d] == 2 * at ? 1 : 0);
+  }
+  const GhostForce on_water = force_of_ghosts(sph, scene, behind);
+  return {-on_water.total[d], -on_water.viscous[d]};
+}
+
+/// What the planes already measure is the force of their penalty: adds that of the images.
+void add_measures(SphState& sph, Scene& scene, const MovingWall& wall) {
+  const std::string name = "plane." + scene.planes[wall.plane].name;
+  for (Measure& m : scene.measures) {
+    if (m.name != name + ".force") continue;
+    m.sample = [&sph, &scene, wall, penalty = m.sample](double* out) {
+      penalty(out);
+      out[wall.axis] += force_on_wall(sph, scene, wall).total;
+    };
+  }
+  if (sph.f_viscous.empty() && sph.f_laminar.empty()) return;
+  scene.measures.push_back({.name = name + ".viscous_force",
+                            .unit = "N",
+                            .components = {"x", "y", "z"},
+                            .sample = [&sph, &scene, wall](double* out) {
+                              out[0] = out[1] = out[2] = 0;
+                              out[wall.axis] = force_on_wall(sph, scene, wall).viscous;
+                            }});
+}
+
 void add_operations(const Keys&, Scene& scene, Models& models) {
   if (scene.particles.empty()) return;
-  const SphState& sph = scene.store.get<SphState>();
+  SphState& sph = scene.store.get<SphState>();
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const auto wall = mirrored_at(sph.halo, scene, k);
-    if (!wall) continue;
-    for (Measure& m : scene.measures) {
-      if (m.name != "plane." + scene.planes[k].name + ".force") continue;
-      m.sample = [&sph, &scene, wall, penalty = m.sample](double* out) {
-        penalty(out);
-        out[wall->axis] -= force_of_images(sph, scene, *wall);
-      };
-    }
+    if (wall) add_measures(sph, scene, *wall);
   }
   if (!sph.halo.moving.empty()) add_moving_walls(sph, scene, models);
 }

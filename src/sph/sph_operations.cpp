@@ -9,18 +9,6 @@
 
 namespace gannet {
 
-namespace {
-
-ParticleView view_of(const SphState& sph, const Scene& scene) {
-  const Index first = scene.particles.begin;
-  ParticleView view;
-  view.x = scene.nodes.x.data() + first;
-  view.v = scene.nodes.v.data() + first;
-  view.rho = sph.rho.data();
-  view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
-  return view;
-}
-
 PairParameters parameters_of(const SphState& sph) {
   return {.dimension = sph.kernel.dimension,
           .h = sph.h,
@@ -35,6 +23,18 @@ PairParameters parameters_of(const SphState& sph) {
           .delta = sph.terms.delta,
           .mu = sph.terms.mu,
           .tensile = sph.terms.tensile};
+}
+
+namespace {
+
+ParticleView view_of(const SphState& sph, const Scene& scene) {
+  const Index first = scene.particles.begin;
+  ParticleView view;
+  view.x = scene.nodes.x.data() + first;
+  view.v = scene.nodes.v.data() + first;
+  view.rho = sph.rho.data();
+  view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
+  return view;
 }
 
 /// The results that a term asks for: the array that its effect made, or null.

@@ -83,6 +83,9 @@ inline const Murnaghan& eos_of(const SphState& sph, const Scene& scene, Index k)
   return sph.eos[scene.particle_part[k]];
 }
 
+/// What both pair passes are told.
+PairParameters parameters_of(const SphState& sph);
+
 /// Sum of f(k) over the particles of a part, in chunks that are the same for any number of threads.
 /// f: a function of the particle's index among the particles.
 template <class F>

@@ -73,3 +73,44 @@ TEST_CASE("probes: mistakes name their place", "[body]") {
   CHECK_THROWS_WITH(probed_world("{a: {contact_force: slum}}"),
                     Catch::Contains("probes.a.contact_force") && Catch::Contains("slum"));
 }
+
+TEST_CASE("probes: the force on a wall or a part, split into pressure and viscosity", "[body]") {
+  Draft draft;
+  draft.parts = {test::plate("panel", 2, 2, 1, 1), test::particles("pool", {{0, 0, -1}})};
+  const auto make = [&](const std::string& of) {
+    return make_world(
+        "parts: {panel: {made: yes}, pool: {made: yes}}\n"
+        "contacts: {slam: {made: yes, between: [pool, panel]}}\n"
+        "boundaries: {basin: {planes: {x: [-5, 5], z: -5}}}\n"
+        "probes: {wall: {wall_force: " +
+            of + "}}\n",
+        draft, {planes_effect(), wall_force_effect()});
+  };
+  const auto add = [](World& world, const std::string& name, const Vec3& force) {
+    world.scene.measures.push_back({name, "N", {"x", "y", "z"}, [force](double* to) {
+                                      for (int d = 0; d < 3; ++d) to[d] = force[d];
+                                    }});
+  };
+  const auto read = [&](const std::string& of) {
+    auto world = make(of);
+    REQUIRE(test::mistakes_of(*world).empty());
+    add(*world, "plane.basin.x_min.force", {-8, 0, 0});
+    add(*world, "plane.basin.x_max.force", {5, 0, 0});
+    add(*world, "plane.basin.z_min.force", {0, 1, -30});
+    add(*world, "plane.basin.z_min.viscous_force", {0, 1, -2});
+    add(*world, "contact.slam.force", {1, 2, 3});
+    add(*world, "plane.basin_2.force", {100, 100, 100});
+    std::vector<double> values(9);
+    for (const Measure& m : world->scene.measures) {
+      if (m.name == "probe.wall") m.sample(values.data());
+    }
+    return values;
+  };
+  CHECK(read("basin") == std::vector<double>{-3, 0, -28, 0, 1, -2, -3, 1, -30});
+  CHECK(read("basin.x_max") == std::vector<double>{5, 0, 0, 0, 0, 0, 5, 0, 0});
+  CHECK(read("panel") == std::vector<double>{1, 2, 3, 0, 0, 0, 1, 2, 3});
+  CHECK_THAT(test::mistakes_of(*make("bassin")),
+             Catch::Contains("there is no wall or part 'bassin'; there are: basin.x_min, "
+                             "basin.x_max, basin.z_min, panel"));
+  CHECK_THAT(test::mistakes_of(*make("pool")), Catch::Contains("'pool' is made of particles"));
+}

@@ -45,7 +45,8 @@ inline PartDraft particles(const std::string& name, std::vector<Vec3> points) {
 /// Keys that let a case text name the parts that a test makes by hand.
 inline Schema test_schema(const std::vector<Effect>& effects) {
   Schema schema{{"parts.*", {.name = "made", .kind = Kind::flag, .text = "by the test"}},
-                {"contacts.*", {.name = "made", .kind = Kind::flag, .text = "by the test"}}};
+                {"contacts.*", {.name = "made", .kind = Kind::flag, .text = "by the test"}},
+                {"contacts.*", {.name = "between", .kind = Kind::names, .text = "two sides"}}};
   for (const Effect& e : effects) {
     for (SchemaEntry& entry : e.schema()) schema.push_back(std::move(entry));
   }
