@@ -74,6 +74,7 @@ std::vector<Effect> make_table() {
       prescribed_motion_effect(),            // after all forces: measures the reactions
       probes_effect(),                       //
       wall_force_effect(),
+      flow_probes_effect(),
       sph_probes_effect(),  //
       guards_effect(),      // after all energies are known
       study_effect(),       // keys only: what `gannet study` varies and measures

@@ -27,13 +27,23 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string unit_of(const Measure& m) { return m.unit.empty() ? "-" : m.unit; }
+/// Unit of a component: measures have one unit, or as many as components with commas between.
+std::string unit_of(const Measure& m, std::size_t component) {
+  std::size_t begin = 0;
+  std::size_t end = m.unit.find(',');
+  for (std::size_t k = 0; k < component && end != std::string::npos; ++k) {
+    begin = end + 1;
+    end = m.unit.find(',', begin);
+  }
+  const std::string unit = m.unit.substr(begin, end - begin);
+  return unit.empty() ? "-" : unit;
+}
 
 std::string measure_header(const Measure& m, const std::string& name) {
   std::string header = "time [s]";
-  for (const std::string& c : m.components) {
-    const std::string column = m.components.size() == 1 ? name : name + " " + c;
-    header += "," + quoted(fmt::format("{} [{}]", column, unit_of(m)));
+  for (std::size_t k = 0; k < m.components.size(); ++k) {
+    const std::string column = m.components.size() == 1 ? name : name + " " + m.components[k];
+    header += "," + quoted(fmt::format("{} [{}]", column, unit_of(m, k)));
   }
   return header + "\n";
 }

@@ -19,7 +19,8 @@ std::string history_name(const Measure& measure);
 /// Writes the tables of a run:
 /// - history/energy.csv: time [s], held [J], external [J], error [-], then every entry of the
 ///   ledger, named "PART ENTRY [J]";
-/// - history/NAME.csv for each measure with a history_name(): time [s], then its components.
+/// - history/NAME.csv for each measure with a history_name(): time [s], then its components. A
+///   measure has one unit, or one for each component with commas between: "m^3/s,m^3".
 /// Numbers are the shortest text that reads back to the same bits.
 class History {
  public:

@@ -44,6 +44,9 @@ Effect periodic_effect();
 /// which directions repeat, and after the effects that make planes and their measures.
 Effect mirror_walls_effect();
 
+/// probes.NAME.flow: water through a plane. Stands before `sph_probes`, which keeps its gauges.
+Effect flow_probes_effect();
+
 /// probes.NAME: pressure at a point, height of the surface, front of the water.
 Effect sph_probes_effect();
 

@@ -13,31 +13,54 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-/// Two sums that a gauge needs at once.
+/// What a gauge adds up over the particles near it.
 struct GaugeSums {
   double volume = 0;    ///< sum V W [-]
-  double pressure = 0;  ///< sum V p W [Pa]
+  double pressure = 0;  ///< sum V W p [Pa]
+  double head = 0;      ///< sum V W rho g . (x - x_j): what still water has more at the gauge [Pa]
+  double p0 = std::numeric_limits<double>::infinity();  ///< least of their p0 [Pa]
 };
 
-GaugeSums sums_at(const SphState& sph, const Scene& scene, const Vec3& x) {
-  const Line* nodes = scene.nodes.x.data() + scene.particles.begin;
-  const double reach = sph.kernel.reach();
-  return parallel_reduce(
-      scene.particles.size() + scene.nodes.n_ghosts, node_chunk, GaugeSums{},
-      [&](Index begin, Index end) {
-        GaugeSums sums;
-        for (Index k = begin; k < end; ++k) {
-          const double r = (xyz(nodes[k]) - x).norm();
-          if (r >= reach) continue;
-          const double VW = sph.m / sph.rho[k] * sph.kernel.W(r);
-          sums.volume += VW;
-          sums.pressure += VW * sph.p[k];
-        }
-        return sums;
-      },
-      [](const GaugeSums& a, const GaugeSums& b) {
-        return GaugeSums{a.volume + b.volume, a.pressure + b.pressure};
-      });
+/// Adds source k at r = x_k - x. Images have the pressure of their source, and so its place.
+void add_source(const SphState& sph, const Scene& scene, Index k, const Vec3& r, const Vec3& x,
+                GaugeSums& sums) {
+  const Index n = scene.particles.size();
+  const double VW = sph.m / sph.rho[k] * sph.kernel.W(r.norm());
+  const Index source = k < n ? k : sph.halo.source[k - n];
+  const Vec3 from_source = x - xyz(scene.nodes.x[scene.particles.begin + source]);
+  sums.volume += VW;
+  sums.pressure += VW * sph.p[k];
+  sums.head += VW * sph.rho[k] * scene.gravity.dot(from_source);
+  sums.p0 = std::min(sums.p0, eos_of(sph, scene, k).p0);
+}
+
+GaugeSums sums_at(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                  const Vec3& x) {
+  GaugeSums sums;
+  for_particles_near(
+      boxes, scene, x, sph.kernel.reach(),
+      [&](Index k, const Vec3& r, const Vec3& at) { add_source(sph, scene, k, r, at, sums); });
+  return sums;
+}
+
+/// The same with the particles on one side of a surface alone.
+GaugeSums sums_beside(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                      const WettedPoint& point, double side) {
+  const Vec3 normal = side * point.normal;
+  const Vec3 x = point.foot + point.distance * normal;
+  GaugeSums sums;
+  for_particles_near(boxes, scene, x, sph.kernel.reach(),
+                     [&](Index k, const Vec3& r, const Vec3& at) {
+                       const double height = point.distance + r.dot(normal);
+                       if (height > 0) add_source(sph, scene, k, r, at, sums);
+                     });
+  return sums;
+}
+
+double pressure_of(const GaugeSums& sums) {
+  if (!(sums.volume > 0)) return 0;
+  const double mean = sums.pressure / sums.volume;
+  return std::max(mean + sums.head / sums.volume, std::min(mean, sums.p0));
 }
 
 /// A particle near a column: place along it, squared distance from it, volume.
@@ -47,17 +70,23 @@ struct OnColumn {
   double V = 0;
 };
 
-std::vector<OnColumn> particles_on_column(const SphState& sph, const Scene& scene, const Vec3& foot,
+std::vector<OnColumn> particles_on_column(const SphState& sph, const Scene& scene,
+                                          const ParticleBoxes& boxes, const Vec3& foot,
                                           const Vec3& up) {
-  const Line* nodes = scene.nodes.x.data() + scene.particles.begin;
   const double reach = sph.kernel.reach();
+  const Vec3 across = Vec3::Ones() - up.cwiseAbs();  // `up` is along an axis
   std::vector<OnColumn> found;
-  for (Index k = 0; k < scene.particles.size() + scene.nodes.n_ghosts; ++k) {
-    const Vec3 d = xyz(nodes[k]) - foot;
-    const double s = d.dot(up);
-    const double off2 = (d - s * up).squaredNorm();
-    if (off2 < reach * reach) found.push_back({s, off2, sph.m / sph.rho[k]});
-  }
+  for_periods(boxes, foot, reach, across, [&](const Vec3& at) {
+    const auto near = [&](const Vec3& low, const Vec3& high) {
+      return (low - at).cwiseMax(at - high).cwiseProduct(across).maxCoeff() < reach;
+    };
+    for_particles_in(boxes, scene, near, [&](Index k, const Vec3& x) {
+      const Vec3 d = x - at;
+      const double s = d.dot(up);
+      const double off2 = (d - s * up).squaredNorm();
+      if (off2 < reach * reach) found.push_back({s, off2, sph.m / sph.rho[k]});
+    });
+  });
   // From the top down, so that a sum near one height touches few of them.
   std::stable_sort(found.begin(), found.end(),
                    [](const OnColumn& a, const OnColumn& b) { return a.s > b.s; });
@@ -66,18 +95,27 @@ std::vector<OnColumn> particles_on_column(const SphState& sph, const Scene& scen
 
 }  // namespace
 
-double pressure_at(const SphState& sph, const Scene& scene, const Vec3& x) {
-  const GaugeSums sums = sums_at(sph, scene, x);
-  return sums.volume > 0 ? sums.pressure / sums.volume : 0;
+double pressure_at(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                   const Vec3& x) {
+  return pressure_of(sums_at(sph, scene, boxes, x));
 }
 
-double volume_fraction_at(const SphState& sph, const Scene& scene, const Vec3& x) {
-  return sums_at(sph, scene, x).volume;
+double volume_fraction_at(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                          const Vec3& x) {
+  return sums_at(sph, scene, boxes, x).volume;
 }
 
-double surface_height_on(const SphState& sph, const Scene& scene, const Vec3& foot,
-                         const Vec3& up) {
-  const std::vector<OnColumn> column = particles_on_column(sph, scene, foot, up);
+double pressure_beside(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                       const WettedPoint& at) {
+  if (at.side != 0) return pressure_of(sums_beside(sph, scene, boxes, at, at.side));
+  const GaugeSums front = sums_beside(sph, scene, boxes, at, 1);
+  const GaugeSums back = sums_beside(sph, scene, boxes, at, -1);
+  return pressure_of(front.volume >= back.volume ? front : back);
+}
+
+double surface_height_on(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
+                         const Vec3& foot, const Vec3& up) {
+  const std::vector<OnColumn> column = particles_on_column(sph, scene, boxes, foot, up);
   if (column.empty()) return nowhere;
   const double reach = sph.kernel.reach();
   const auto fraction = [&](double s) {

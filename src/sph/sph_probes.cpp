@@ -1,8 +1,11 @@
 // The effect `sph_probes`: gauges in the water, as measures of the scene.
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "scene/surface_data.hpp"
+#include "scene/surface_point.hpp"
 #include "sph/effects.hpp"
 #include "sph/probe_functions.hpp"
 
@@ -16,7 +19,13 @@ Schema schema() {
                     .kind = Kind::vector,
                     .unit = dim::length,
                     .text = "the point",
-                    .required = true}};
+                    .required = true},
+                   {.name = "on",
+                    .kind = Kind::reference,
+                    .text = "part of shells that the point moves with, at the place nearest to it; "
+                            "read is the side that `at` lies on, or, for a point on the shell, the "
+                            "one with more water",
+                    .refers_to = "parts"}};
   Key height{.name = "surface_height",
              .kind = Kind::map,
              .text = "height of the water's surface on a vertical line, from the origin"};
@@ -71,7 +80,7 @@ void add_surface(const Keys& gauge, Measure measure, Scene& scene) {
   const Vec3 up = sense * Vec3::Unit(axis);
   measure.unit = "m";
   measure.sample = [&scene, foot, up](double* value) {
-    *value = surface_height_on(scene.store.get<SphState>(), scene, foot, up);
+    *value = surface_height_on(scene.store.get<SphState>(), scene, boxes_of(scene), foot, up);
   };
   scene.measures.push_back(std::move(measure));
 }
@@ -90,11 +99,34 @@ void add_front(const Keys& gauge, Measure measure, Scene& scene) {
   scene.measures.push_back(std::move(measure));
 }
 
+/// A gauge that sits on a part.
+void add_pressure_on(const Keys& gauge, Measure measure, Scene& scene) {
+  const int part = scene.part_number(gauge.word("on"));
+  const SurfacePoint point =
+      part < 0 ? SurfacePoint{} : nearest_on_part(scene, part, gauge.vector("at"));
+  if (point.n == 0) {
+    gauge.complain("on", "'" + gauge.word("on") + "' is not made of shells");
+    return;
+  }
+  const auto& surfaces = scene.store.get<SurfaceData>().of_part;
+  const auto at = static_cast<std::size_t>(part);
+  const double thickness = at < surfaces.size() ? surfaces[at].thickness : 0;
+  const double dx = scene.store.get<SphState>().dx;
+  const double side = std::abs(point.height) < 1e-3 * dx ? 0 : std::copysign(1, point.height);
+  measure.sample = [&scene, point, side, distance = 0.5 * (thickness + dx)](double* value) {
+    const WettedPoint here{place_of(point, scene.nodes), normal_of(point, scene.nodes), distance,
+                           side};
+    *value = pressure_beside(scene.store.get<SphState>(), scene, boxes_of(scene), here);
+  };
+  scene.measures.push_back(std::move(measure));
+}
+
 void add_pressure(const Keys& gauge, Measure measure, Scene& scene) {
   const Vec3 at = gauge.vector("at");
   measure.unit = "Pa";
+  if (gauge.has("on")) return add_pressure_on(gauge, std::move(measure), scene);
   measure.sample = [&scene, at](double* value) {
-    *value = pressure_at(scene.store.get<SphState>(), scene, at);
+    *value = pressure_at(scene.store.get<SphState>(), scene, boxes_of(scene), at);
   };
   scene.measures.push_back(std::move(measure));
 }
@@ -112,14 +144,29 @@ void make_state(const Keys& root, Scene& scene) {
         probe.complain(key, "measures particles, and no part is made of them");
         continue;
       }
+      scene.store.get<ParticleBoxes>();
       add(probe.map(key),
           {.name = "probe." + name, .unit = "", .components = {"value"}, .sample = {}}, scene);
     }
   }
 }
 
+/// Where particles are is found anew at each level that a gauge is read at.
+void add_operations(const Keys&, Scene& scene, Models& models) {
+  if (!scene.store.has<ParticleBoxes>()) return;
+  auto& boxes = scene.store.get<ParticleBoxes>();
+  models.of_node(scene.particles.begin)
+      .plan.add({.name = "gauges look anew",
+                 .reason = "rule: boxes of particles are found when a probe is read",
+                 .stage = Stage::drift,
+                 .run = [&boxes](const Step&) { boxes.fresh = false; }});
+}
+
 }  // namespace
 
-Effect sph_probes_effect() { return {.name = "sph_probes", .schema = schema, .state = make_state}; }
+Effect sph_probes_effect() {
+  return {
+      .name = "sph_probes", .schema = schema, .state = make_state, .operations = add_operations};
+}
 
 }  // namespace gannet

@@ -18,7 +18,8 @@ inline const std::vector<std::string> small_panel{
 inline const std::string dam_break = "cases/dam_break_2d/case.yaml";
 inline const std::vector<std::string> small_dam{"let.dx=a/60", "output.checkpoint=never"};
 
-/// A shear layer in a periodic plane, 100 x 60 particles, with viscosity and XSPH.
+/// A shear layer in a periodic plane, 100 x 60 particles, with viscosity and XSPH, and a count of
+/// what crosses a plane.
 inline const std::string periodic_plane = R"(gannet: 1
 dimension: 2
 materials: {water: {density: 1000, c0: 30 m/s}}
@@ -35,6 +36,9 @@ boundaries: {sides: {periodic: {x: [0, 1 m], y: [0, 0.6 m]}}}
 effects:
   viscosity: {type: monaghan, alpha: 0.1}
   xsph: {epsilon: 0.5}
+probes:
+  across: {flow: {plane: {point: [0.5 m, 0.1 m, 0], normal: [1, 0, 0]}}}
+  gauge: {pressure: {at: [0.5 m, 0.3 m, 0]}}
 output: {until: 10 s, checkpoint: never}
 )";
 

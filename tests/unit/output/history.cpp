@@ -51,6 +51,19 @@ TEST_CASE("history: header with names and units, numbers that read back to the s
   CHECK_FALSE(fs::exists(folder.path + "/history/mass_pool.csv"));
 }
 
+TEST_CASE("history: a measure may have a unit for each component", "[output]") {
+  const EmptyFolder folder("units");
+  SmallScene small;
+  small.scene.measures.push_back({"probe.flow", "m^3/s,m^3", {"rate", "volume"}, [](double* to) {
+                                    to[0] = 2;
+                                    to[1] = 3;
+                                  }});
+  History history(small.scene, small.models.ledger);
+  history.write(0, {}, folder.path);
+  CHECK(read_file(folder.path + "/history/flow.csv") ==
+        "time [s],flow rate [m^3/s],flow volume [m^3]\n0,2,3\n");
+}
+
 TEST_CASE("history: a new ledger entry in the middle of a run is an error", "[output]") {
   const EmptyFolder folder("late");
   SmallScene small;

@@ -28,9 +28,9 @@ struct Pool {
   /// before the lists are built.
   explicit Pool(const std::string& text, int dimension = 3, const Vec3& gravity = Vec3::Zero(),
                 const std::function<void(Scene&)>& change = {}) {
-    const std::array<Effect, 6> effects{
+    const std::array<Effect, 7> effects{
         sph_effect(),          viscosity_effect(),   xsph_effect(),      periodic_effect(),
-        mirror_walls_effect(), sph_probes_effect()};
+        mirror_walls_effect(), flow_probes_effect(), sph_probes_effect()};
     Schema schema = mesh_schema();
     for (const Effect& e : effects) {
       if (e.schema == nullptr) continue;

@@ -4,6 +4,7 @@
 #include "kernel/cubic_spline.hpp"
 #include "pool.hpp"
 #include "sph/ghost_force.hpp"
+#include "sph/probe_functions.hpp"
 
 using namespace gannet;
 using gannet::test::Pool;
@@ -80,4 +81,111 @@ TEST_CASE("mirror walls: the force on a wall is that of its images on the water"
   }
   CHECK(looks == 12);
   CHECK(pool.sph().n_builds > 1);
+}
+
+TEST_CASE("probes: water through a plane, the rate and the volume since the start", "[sph]") {
+  Pool pool(std::string(water) +
+            "parts: {drop: {sph: {material: water, spacing: 0.1}, initial_velocity: [1, 0, 0], "
+            "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
+            "boundaries: {sides: {periodic: {x: [0, 0.8]}}}\n"
+            "probes: {middle: {flow: {plane: {point: [0.31, 0, 0], normal: [2, 0, 0]}}}, "
+            "seam: {flow: {plane: {point: [0.02, 0, 0], normal: [1, 0, 0]}}}, "
+            "back: {flow: {plane: {point: [0.31, 0, 0], normal: [-1, 0, 0]}}}}");
+  CHECK(measured(pool.scene, "probe.middle")[1] == 0);
+  pool.run(300);
+  // Layers of 0.064 m^3 follow each other every 0.1 s; the last look was a step ago.
+  const double t = pool.at().t - pool.at().dt_old;
+  REQUIRE(t > 0.5);
+  CHECK(measured(pool.scene, "probe.middle")[0] == Approx(0.64).epsilon(1e-9));
+  CHECK(measured(pool.scene, "probe.middle")[1] ==
+        Approx(0.064 * (std::floor((t - 0.06) / 0.1) + 1)).epsilon(1e-9));
+  CHECK(measured(pool.scene, "probe.back")[1] == -measured(pool.scene, "probe.middle")[1]);
+  CHECK(measured(pool.scene, "probe.seam")[1] ==
+        Approx(0.064 * (std::floor((t - 0.07) / 0.1) + 1)).epsilon(1e-9));
+  CHECK_THROWS_WITH(
+      Pool(std::string(water) +
+           "parts: {drop: {sph: {material: water, spacing: 0.1}, "
+           "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
+           "probes: {q: {flow: {plane: {point: [0, 0, 0], normal: [0, 0, 0]}}}}"),
+      Catch::Contains("pool.yaml:4:") && Catch::Contains("a normal needs a length above 0"));
+}
+
+TEST_CASE("probes: a gauge finds the same particles as a look at all of them", "[sph]") {
+  Pool pool(std::string(water) +
+                "parts: {pool: {sph: {material: water, spacing: 0.1}, start: hydrostatic, "
+                "fill: {box: {from: [0, 0, -1], to: [0.9, 0.8, 0]}, jitter: 0.2}}}",
+            3, {0, 0, -10});
+  const SphState& sph = pool.sph();
+  for (const Vec3& x :
+       {Vec3(0.4, 0.3, -0.5), Vec3(0, 0, -1), Vec3(0.45, 0.4, 0.1), Vec3(2, 0, 0)}) {
+    double volume = 0;
+    double pressure = 0;
+    for (Index k = 0; k < pool.scene.particles.size(); ++k) {
+      const double r = (pool.x(k) - x).norm();
+      if (r >= 2 * sph.h) continue;
+      const double VW = sph.m / sph.rho[k] * cubic_spline::W(3, r, sph.h);
+      volume += VW;
+      pressure += VW * (sph.p[k] + sph.rho[k] * 10 * (pool.x(k).z() - x.z()));
+    }
+    const ParticleBoxes& boxes = boxes_of(pool.scene);
+    CHECK(volume_fraction_at(sph, pool.scene, boxes, x) == Approx(volume).epsilon(1e-14));
+    const double expected = volume > 0 ? std::max(pressure / volume, 0.0) : 0.0;
+    CHECK(pressure_at(sph, pool.scene, boxes, x) == Approx(expected).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("probes: gauges see water that has left a periodic domain", "[sph]") {
+  Pool pool(std::string(water) +
+            "parts: {drop: {sph: {material: water, spacing: 0.1}, initial_velocity: [1, 0, 0], "
+            "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
+            "boundaries: {sides: {periodic: {x: [0, 0.8]}}}\n"
+            "probes: {top: {surface_height: {at: [0.5, 0.4]}}}");
+  const auto fraction = [&](double x) {
+    return volume_fraction_at(pool.sph(), pool.scene, boxes_of(pool.scene), {x, 0.4, 0.4});
+  };
+  pool.run(330);
+  REQUIRE(pool.at().t > 0.8);
+  for (const double x : {0.0, 0.3, 0.79}) CHECK(fraction(x) == Approx(1).epsilon(2e-2));
+  CHECK(measured(pool.scene, "probe.top")[0] == Approx(0.8).epsilon(0.03));
+}
+
+TEST_CASE("probes: pressure within, at the surface and at a wall of still water", "[sph]") {
+  Pool pool(std::string(water) +
+                "parts: {pool: {sph: {material: water, spacing: 0.05}, start: hydrostatic, "
+                "fill: {box: {from: [0, 0, -1], to: [0.6, 0.6, 0]}}}}",
+            3, {0, 0, -10}, [](Scene& scene) {
+              scene.planes.push_back({"floor", {0, 0, -1}, Vec3::UnitZ(), {}});
+            });
+  const auto p = [&](double z) {
+    return pressure_at(pool.sph(), pool.scene, boxes_of(pool.scene), {0.3, 0.3, z});
+  };
+  // B + p loses a few digits, and rho differs from rho0 by a share of 1e-2.
+  CHECK(p(-0.5) == Approx(5000).epsilon(1e-3));
+  CHECK(p(-0.525) == Approx(5250).epsilon(1e-3));
+  CHECK(p(-1) == Approx(1e4).epsilon(1e-3));
+  CHECK(p(-0.02) == Approx(200).epsilon(0.02));
+  CHECK(std::abs(p(0)) < 5);
+  CHECK(p(0.06) == 0);  // above the surface, and not below p0
+}
+
+TEST_CASE("probes: a gauge on a thin surface reads its wet side", "[sph]") {
+  Pool pool(std::string(water) +
+            "parts: {pool: {sph: {material: water, spacing: 0.1}, "
+            "fill: {box: {from: [-0.4, -0.4, -0.4], to: [0.4, 0.4, 0.4]}}}}");
+  for (Index k = 0; k < pool.scene.particles.size(); ++k) {
+    pool.sph().p[k] = pool.x(k).z() > 0 ? 100 : 200;
+  }
+  WettedPoint at{Vec3::Zero(), Vec3::UnitZ(), 0.05, 1};
+  const auto read = [&](double side) {
+    at.side = side;
+    return pressure_beside(pool.sph(), pool.scene, boxes_of(pool.scene), at);
+  };
+  CHECK(read(1) == Approx(100).epsilon(1e-14));
+  CHECK(read(-1) == Approx(200).epsilon(1e-14));
+  for (Index k = 0; k < pool.scene.particles.size(); ++k) {
+    if (pool.x(k).z() > 0) pool.scene.nodes.x[pool.scene.particles.begin + k].z += 3;
+  }
+  pool.scene.store.get<ParticleBoxes>().fresh = false;
+  CHECK(read(0) == Approx(200).epsilon(1e-14));
+  CHECK(read(1) == 0);  // dry
 }
