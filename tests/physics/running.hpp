@@ -23,9 +23,9 @@ inline double time_of(const Simulation& s) { return s.models.list.front().step.t
 inline double measured(const Scene& scene, const std::string& name, int component = 0) {
   for (const Measure& m : scene.measures) {
     if (m.name != name) continue;
-    double value[8] = {};
-    m.sample(value);
-    return value[component];
+    std::vector<double> value(m.components.size());
+    m.sample(value.data());
+    return value[static_cast<std::size_t>(component)];
   }
   FAIL("no measure " << name);
   return 0;

@@ -35,6 +35,23 @@ TEST_CASE("CFC filter: gain of SAE J211 at every class, and no delay", "[output]
   }
 }
 
+TEST_CASE("CFC filter: gain by hand at 0.1, 1 and 5 times the corner", "[output]") {
+  // 1/(1 + r^4), r = tan(pi f dt)/tan(pi f_d dt), f_d = 2.0775 * 100 Hz, dt = 1/4000 s.
+  const std::vector<std::pair<double, double>> expected{
+      {0.1, 0.9999034840}, {1, 0.5}, {5, 5.754162485e-4}};
+  for (const auto& [times, gain] : expected) {
+    std::vector<double> x(8000);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] = std::sin(2 * std::numbers::pi * times * 207.75 * static_cast<double>(k) / 4000);
+    }
+    std::vector<double> y = x;
+    cfc_filter(y, 100, 1.0 / 4000);
+    double worst = 0;  // of gain and phase alike: the phase is zero
+    for (std::size_t k = 2000; k < 6000; ++k) worst = std::max(worst, std::abs(y[k] - gain * x[k]));
+    CHECK(worst < 1e-9);
+  }
+}
+
 TEST_CASE("CFC filter: straight lines stay as they are, up to both ends", "[output]") {
   std::vector<double> x(200);
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = 3 - 0.5 * static_cast<double>(k);
