@@ -22,10 +22,13 @@ struct StudyAxis {
 
 /// What errors are measured against.
 struct StudyReference {
-  enum class Kind { finest, number, csv, richardson };
+  enum class Kind { finest, number, csv, formula, richardson };
   Kind kind = Kind::finest;
   double value = 0;  ///< of Kind::number [SI]
   std::string file;  ///< of Kind::csv: time and value in its first two columns
+  std::string text;  ///< of Kind::formula, as written
+  /// of Kind::formula: value [SI] of the history at a time [s], &t; one thread at a time
+  std::function<double(const double*)> formula;
 };
 
 /// One number that is taken from a history of a run.

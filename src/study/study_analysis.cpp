@@ -118,8 +118,30 @@ TimeSeries history_of(const StudyResult& result, const StudyMeasure& measure, st
                           measure.column);
 }
 
-TimeSeries reference_history(const StudyReference& reference) {
-  return read_time_series(reference.file, "");
+/// The history of a file, or of a formula or number at the times of `run`, a history of the study.
+TimeSeries reference_history(const StudyReference& reference, const TimeSeries& run) {
+  if (reference.kind == StudyReference::Kind::csv) return read_time_series(reference.file, "");
+  TimeSeries series = run;
+  for (std::size_t i = 0; i < series.t.size(); ++i) {
+    series.y[i] = reference.kind == StudyReference::Kind::formula ? reference.formula(&series.t[i])
+                                                                  : reference.value;
+    if (!std::isfinite(series.y[i])) {
+      throw std::runtime_error(fmt::format("the reference '{}' is not finite at t = {:.6g} s",
+                                           reference.text, series.t[i]));
+    }
+  }
+  return series;
+}
+
+std::string reference_name(const StudyReference& reference, const std::string& unit) {
+  if (reference.kind == StudyReference::Kind::csv) return reference.file;
+  if (reference.kind == StudyReference::Kind::formula) return reference.text;
+  return fmt::format("{:.5g} {}", reference.value, unit);
+}
+
+bool is_known(const StudyReference& reference) {
+  return reference.kind != StudyReference::Kind::finest &&
+         reference.kind != StudyReference::Kind::richardson;
 }
 
 const StudyReference& reference_for(const StudyResult& result, const MeasureResult& m) {
@@ -155,18 +177,25 @@ std::string finest_text(const StudyResult& result, std::size_t point) {
                      setting_text(result.spec.axes, result.points[point].choices));
 }
 
-/// Histories against a history: the finest run's or that of a file.
+/// The history of the finest run that is done, and its point.
+TimeSeries finest_history(const StudyResult& result, const StudyMeasure& measure,
+                          std::size_t& point) {
+  point = finest_point(result);
+  if (point == no_point) throw std::runtime_error("no run is done");
+  return history_of(result, measure, result.points[point].runs.front());
+}
+
+/// Histories against a history: the finest run's, or that of a file, a formula or a number.
 void measure_distance(const StudyResult& result, MeasureResult& m) {
   const StudyReference& reference = reference_for(result, m);
-  TimeSeries against;
-  if (reference.kind == StudyReference::Kind::csv) {
-    against = reference_history(reference);
-    m.reference_text = reference.file;
+  std::size_t point = no_point;
+  TimeSeries against = finest_history(result, m.measure, point);
+  if (is_known(reference)) {
+    m.reference_text = reference_name(reference, against.unit);
+    against = reference_history(reference, against);
   } else {
-    m.reference_point = finest_point(result);
-    if (m.reference_point == no_point) throw std::runtime_error("no run is done");
-    against = history_of(result, m.measure, result.points[m.reference_point].runs.front());
-    m.reference_text = finest_text(result, m.reference_point);
+    m.reference_point = point;
+    m.reference_text = finest_text(result, point);
   }
   take_values(result, &against, m);
   m.reference = 0;
@@ -211,12 +240,16 @@ void measure_number(const StudyResult& result, MeasureResult& m) {
       break;
     case StudyReference::Kind::number:
       m.reference = reference.value;
-      m.reference_text = fmt::format("{:.5g} {}", reference.value, m.unit);
+      m.reference_text = reference_name(reference, m.unit);
       break;
     case StudyReference::Kind::csv:
-      m.reference = evaluate(m.measure, reference_history(reference));
-      m.reference_text = reference.file;
+    case StudyReference::Kind::formula: {
+      std::size_t point = no_point;
+      const TimeSeries run = finest_history(result, m.measure, point);
+      m.reference = evaluate(m.measure, reference_history(reference, run));
+      m.reference_text = reference_name(reference, m.unit);
       break;
+    }
     case StudyReference::Kind::richardson:
       m.reference = extrapolated(result, m);
       m.reference_text = fmt::format("{:.5g} {} (extrapolated)", m.reference, m.unit);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/units.hpp"
+#include "input/formula.hpp"
 #include "input/nearest.hpp"
 #include "input/text_tree.hpp"
 #include "study/study_axes.hpp"
@@ -107,6 +108,18 @@ std::string beside(const std::string& file, const std::string& folder) {
                                       : (fs::path(folder) / file).lexically_normal().string();
 }
 
+/// A history that is known in closed form: "h*cos(omega*t)", t in s, the result in SI.
+StudyReference formula_reference(const Value& formula, const Keys& keys) {
+  StudyReference reference{.kind = StudyReference::Kind::formula, .text = formula.text};
+  try {
+    if (!formula.formula) throw std::invalid_argument("a formula of t in quotes is wanted");
+    reference.formula = formula.formula({"t"});
+  } catch (const std::invalid_argument& error) {
+    keys.complain(formula, error.what());
+  }
+  return reference;
+}
+
 StudyReference reference_of(const Value& v, const Keys& keys, const std::string& folder) {
   StudyReference reference;
   const Value* csv = child_of(v, "csv");
@@ -119,6 +132,8 @@ StudyReference reference_of(const Value& v, const Keys& keys, const std::string&
   } else if (!number.numbers.empty()) {
     reference.kind = StudyReference::Kind::number;
     reference.value = number.numbers.front();
+  } else if (formula != nullptr) {
+    reference = formula_reference(*formula, keys);
   } else if (v.text == "richardson") {
     reference.kind = StudyReference::Kind::richardson;
   } else if (v.text != "finest") {
@@ -296,8 +311,14 @@ StudyReference parse_reference(const std::string& text) {
     reference.file = fs::absolute(text).lexically_normal().string();
     return reference;
   }
-  reference.kind = StudyReference::Kind::number;
-  reference.value = parse_quantity(text).value;
+  try {
+    reference.value = parse_quantity(text).value;
+    reference.kind = StudyReference::Kind::number;
+  } catch (const std::invalid_argument&) {
+    reference.formula = Formulas{}.compile(text, {"t"});
+    reference.kind = StudyReference::Kind::formula;
+    reference.text = text;
+  }
   return reference;
 }
 

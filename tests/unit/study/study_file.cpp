@@ -1,6 +1,7 @@
 #include "study/study_file.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 
 #include "support/temporary_folder.hpp"
@@ -51,6 +52,25 @@ TEST_CASE("study file: what is varied and measured", "[study]") {
   CHECK(spec.jitter == Approx(0.05));
 }
 
+TEST_CASE("study file: a formula of t is a history, one without t a number", "[study]") {
+  const auto c = read(
+      "  vary: {let.dx: [8 mm]}\n"
+      "  measure:\n"
+      "    a: {final: h, reference: {formula: \"a*cos(2*t)\"}}\n"
+      "    b: {final: h, reference: {formula: \"2*a\"}}\n"
+      "    c: {final: h, reference: {formula: \"a*cos(2*x)\"}}\n"
+      "  reference: finest\n");
+  const StudySpec spec = study_of(*c);
+  REQUIRE(spec.measures[0].reference);
+  CHECK(spec.measures[0].reference->kind == StudyReference::Kind::formula);
+  const double t = 0.3;
+  CHECK(spec.measures[0].reference->formula(&t) == Approx(0.02 * std::cos(0.6)));
+  CHECK(spec.measures[1].reference->kind == StudyReference::Kind::number);
+  CHECK(spec.measures[1].reference->value == Approx(0.04));
+  REQUIRE(c->mistakes.messages().size() == 1);
+  CHECK_THAT(c->mistakes.messages()[0], Catch::Contains("s.yaml:8:") && Catch::Contains("x"));
+}
+
 TEST_CASE("study file: mistakes are said with what is known", "[study]") {
   const auto c = read(
       "  vary: {let.dx: 8 mm}\n"
@@ -79,6 +99,8 @@ TEST_CASE("study: measures and references of the command line", "[study]") {
   CHECK_THROWS_WITH(parse_measure("peak:keel,from=1 m"), Catch::Contains("a time is wanted"));
   CHECK(parse_reference("finest").kind == StudyReference::Kind::finest);
   CHECK(parse_reference("2 kN").value == Approx(2000));
+  const double t = 2;
+  CHECK(parse_reference("3*t^2").formula(&t) == Approx(12));
   CHECK_THROWS_AS(parse_reference("none.csv"), std::invalid_argument);
   CHECK_THROWS_AS(parse_reference("fines"), std::invalid_argument);
 }

@@ -101,6 +101,25 @@ TEST_CASE("study: three plates give errors that shrink, and all files", "[study]
   REQUIRE(study(folder.path(), "--threads 1").code == 0);
   CHECK(results(folder.path())["runs"][1]["state"] == "done");
   CHECK(results(folder.path())["runs"][0]["wall"] == json["runs"][0]["wall"]);
+
+  // Against formulas: the distance from nothing is the root mean square itself.
+  const Answer known =
+      study(folder.path(),
+            "--threads 1 --measure 'distance:centre:z,reference=0*t,scale=1,name=from_nothing' "
+            "--measure rms:centre:z --measure 'final:centre:z,reference=0.002*t'");
+  INFO(known.text);
+  REQUIRE(known.code == 0);
+  const nlohmann::json with_formulas = results(folder.path());
+  const auto measure = [&](const std::string& name) {
+    for (const auto& m : with_formulas["measures"]) {
+      if (m["name"] == name) return m;
+    }
+    FAIL("no measure " << name);
+    return nlohmann::json();
+  };
+  CHECK(measure("from_nothing")["values"][2]["error"].get<double>() ==
+        Approx(measure("rms_centre_z")["values"][2]["median"].get<double>()).epsilon(0.01));
+  CHECK(measure("final_centre_z")["reference"].get<double>() == Approx(8e-6).epsilon(0.001));
 }
 
 TEST_CASE("study: the tasks of a job array make the runs that a study then collects", "[study]") {
