@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "sph/sph_operations.hpp"
 
 namespace gannet {
 
@@ -105,6 +106,7 @@ GhostForce force_of_ghosts(SphState& sph, Scene& scene, std::span<const char> ch
                      .f_viscous = wanted(sph.f_viscous, pairs.f_viscous),
                      .f_laminar = wanted(sph.f_laminar, pairs.f_laminar),
                      .f_tensile = wanted(sph.f_tensile, pairs.f_tensile)};
+  if (!sph.packed_pressures) pack_for_force(sph, scene);
   pair_force(pairs.list, sph.packed, parameters_of(sph), out, {.clusters = pairs.cluster});
   GhostForce force;
   force.total = sum_of(pairs.f, pairs);

@@ -19,8 +19,9 @@ struct GhostForce {
 /// pairs of owned particles and these ghosts alone. Costs what these pairs cost, and once after
 /// lists were made one look through them.
 /// Corrected gradients have no force of one particle on another; their part is left out.
-/// chosen: one entry for each of halo.kinds, 0 for those left out. Needs sph.packed as the force
-/// pass left it: call it before the rates stage. The same for any number of threads.
+/// chosen: one entry for each of halo.kinds, 0 for those left out. Between the force and the rates
+/// stage the particles are taken as that pass saw them; else they are packed anew as they stand.
+/// The same for any number of threads.
 GhostForce force_of_ghosts(SphState& sph, Scene& scene, std::span<const char> chosen);
 
 }  // namespace gannet

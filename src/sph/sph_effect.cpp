@@ -276,11 +276,6 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
 
 }  // namespace
 
-PairParameters parameters_of(const SphState& sph, const Scene& scene) {
-  return {scene.dimension,  sph.h, sph.m, sph.c0, sph.terms.alpha, sph.terms.beta,
-          sph.terms.epsilon};
-}
-
 Effect sph_effect() {
   return {.name = "sph",
           .schema = schema,

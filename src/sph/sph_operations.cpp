@@ -37,6 +37,17 @@ ParticleView view_of(const SphState& sph, const Scene& scene) {
   return view;
 }
 
+}  // namespace
+
+void pack_for_force(SphState& sph, const Scene& scene) {
+  ParticleView view = view_of(sph, scene);
+  view.p = sph.p.data();
+  pack_particles(view, sph.kernel.reach(), sph.packed);
+  sph.packed_pressures = true;
+}
+
+namespace {
+
 /// The results that a term asks for: the array that its effect made, or null.
 template <class T>
 T* wanted(Array<T>& results) {
@@ -97,11 +108,7 @@ void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
                 "rule: a pair pass reads one line a particle, of 64 bytes (32 in single precision)",
             .stage = Stage::force,
             .reads = {"x", "v", "rho", "p"},
-            .run = [&](const Step&) {
-              ParticleView view = view_of(sph, scene);
-              view.p = sph.p.data();
-              pack_particles(view, sph.kernel.reach(), sph.packed);
-            }});
+            .run = [&](const Step&) { pack_for_force(sph, scene); }});
   const Terms terms = terms_on({{"pressure", "f", true},
                                 {"viscosity", "f_viscous", !sph.f_viscous.empty()},
                                 {"laminar viscosity", "f_laminar", !sph.f_laminar.empty()},
@@ -149,6 +156,7 @@ void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
               ParticleView view = view_of(sph, scene);
               view.s = wanted(sph.s);
               pack_particles(view, sph.kernel.reach(), sph.packed);
+              sph.packed_pressures = false;
             }});
   const Terms terms =
       terms_on({{"density rate", "drho_dt", true},

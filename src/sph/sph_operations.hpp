@@ -16,6 +16,9 @@ namespace gannet {
 void add_particle_operations(SphState& sph, Scene& scene, Models& models,
                              const std::string& reason);
 
+/// Packs particles and ghosts, with their pressures, for pair_force.
+void pack_for_force(SphState& sph, const Scene& scene);
+
 /// The sums of renormalised densities at the present positions and densities, ghosts included:
 /// sum m W, sum m/rho W, one entry an owned particle. A rates pass of its own.
 void sum_shepard(SphState& sph, const Scene& scene, double* sum_mW, double* sum_VW);

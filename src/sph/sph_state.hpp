@@ -72,10 +72,11 @@ struct SphState {
   ClusterList list;
   ListAge age;
   Packed packed;
-  std::int64_t n_builds = 0;  ///< how often the lists were built in this run
-  Array<double> scratch;      ///< one number a particle
-  ParticleVote vote;          ///< of the last choice of the step
-  bool warned = false;        ///< the user knows that sound is too slow
+  bool packed_pressures = false;  ///< packed by the force stage, not by the rates stage
+  std::int64_t n_builds = 0;      ///< how often the lists were built in this run
+  Array<double> scratch;          ///< one number a particle
+  ParticleVote vote;              ///< of the last choice of the step
+  bool warned = false;            ///< the user knows that sound is too slow
 };
 
 /// The equation of state of particle k.
