@@ -1,95 +1,18 @@
 // Rigid walls: planes whose normals point to the side of the material. What touches them is the
 // business of contact.
-#include <fmt/format.h>
-
-#include <array>
-#include <string>
-#include <vector>
-
 #include "body/effects.hpp"
+#include "scene/plane_keys.hpp"
 
 namespace gannet {
 
 namespace {
 
-constexpr std::array<const char*, 3> axes{"x", "y", "z"};
-
-Schema schema() {
-  Key planes{.name = "planes",
-             .kind = Kind::map,
-             .text = "walls across the axes: [lower, upper], or the lower one alone"};
-  for (const char* axis : axes) {
-    planes.keys.push_back({.name = axis,
-                           .kind = Kind::numbers,
-                           .unit = dim::length,
-                           .text = "where the walls across this axis stand"});
-  }
-  Key plane{.name = "plane", .kind = Kind::map, .text = "one wall in any direction"};
-  plane.keys = {Key{.name = "point",
-                    .kind = Kind::vector,
-                    .unit = dim::length,
-                    .text = "a point of the wall",
-                    .required = true},
-                Key{.name = "normal",
-                    .kind = Kind::vector,
-                    .text = "points to the side of the material, of any length",
-                    .required = true}};
-  return {{"boundaries.*", planes}, {"boundaries.*", plane}};
-}
-
-/// Walls across one axis: [lower, upper] or the lower one.
-void add_walls(const Keys& planes, int axis, const std::string& name, Scene& scene) {
-  const char* key = axes[static_cast<std::size_t>(axis)];
-  const std::vector<double>& at = planes.numbers(key);
-  if (at.empty() || at.size() > 2) {
-    planes.complain(key, fmt::format("{} numbers; one (the lower wall) or two (lower, upper) are "
-                                     "wanted",
-                                     at.size()));
-    return;
-  }
-  if (at.size() == 2 && !(at[0] < at[1])) {
-    planes.complain(key, fmt::format("the lower wall ({} m) must lie below the upper one ({} m)",
-                                     at[0], at[1]));
-    return;
-  }
-  for (std::size_t side = 0; side < at.size(); ++side) {
-    Plane plane;
-    plane.name = fmt::format("{}.{}_{}", name, key, side == 0 ? "min" : "max");
-    plane.point[axis] = at[side];
-    plane.normal = Vec3::Zero();
-    plane.normal[axis] = side == 0 ? 1 : -1;
-    plane.where = planes.where(key);
-    scene.planes.push_back(plane);
-  }
-}
-
-void add_plane(const Keys& keys, const std::string& name, Scene& scene) {
-  const Vec3 normal = keys.vector("normal");
-  if (!(normal.norm() > 0)) {
-    keys.complain("normal", "a normal needs a length above 0");
-    return;
-  }
-  scene.planes.push_back({name, keys.vector("point"), normal.normalized(), keys.where()});
-}
-
 void state(const Keys& root, Scene& scene) {
-  if (!root.has("boundaries")) return;
-  const Keys boundaries = root.map("boundaries");
-  for (const std::string& name : boundaries.names()) {
-    const Keys boundary = boundaries.map(name);
-    if (boundary.has("plane")) add_plane(boundary.map("plane"), name, scene);
-    if (!boundary.has("planes")) continue;
-    const Keys planes = boundary.map("planes");
-    for (int axis = 0; axis < 3; ++axis) {
-      if (planes.has(axes[static_cast<std::size_t>(axis)])) {
-        add_walls(planes, axis, name, scene);
-      }
-    }
-  }
+  for (const Plane& plane : read_planes(root)) scene.planes.push_back(plane);
 }
 
 }  // namespace
 
-Effect planes_effect() { return {.name = "planes", .schema = schema, .state = state}; }
+Effect planes_effect() { return {.name = "planes", .schema = plane_schema, .state = state}; }
 
 }  // namespace gannet
