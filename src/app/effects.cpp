@@ -50,12 +50,13 @@ Effect with_presence(Effect effect) {
 
 std::vector<Effect> make_table() {
   return {
-      leapfrog_effect(),      // first: clears forces, kicks and drifts
-      gravity_effect(),       // says what gravity is before others ask the scene
-      planes_effect(),        //
-      plane_motion_effect(),  // before lists are made: planes are where they are by then
-      sph_effect(),           //
-      viscosity_effect(),     //
+      leapfrog_effect(),       // first: clears forces, kicks and drifts
+      gravity_effect(),        // says what gravity is before others ask the scene
+      planes_effect(),         //
+      plane_motion_effect(),   // before lists are made: planes are where they are by then
+      wall_pressure_effect(),  // what the force pass of the particles reads
+      sph_effect(),            //
+      viscosity_effect(),      //
       laminar_viscosity_effect(),
       tensile_cure_effect(),
       density_diffusion_effect(),
@@ -64,6 +65,7 @@ std::vector<Effect> make_table() {
       free_surface_effect(),
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
+      walls_effect(),          // built around the particles; follows their passes
       shell_effect(),          //
       plane_contact_effect(),  //
       contacts_effect(),       //

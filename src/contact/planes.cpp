@@ -19,9 +19,15 @@ constexpr Index particle_chunk = 2048;
 
 double height(const Plane& plane, const Line& x) { return plane.normal.dot(xyz(x) - plane.point); }
 
+/// Distance at which a plane begins to push particles [m]: half of what it is elsewhere where dummy
+/// particles hold them off, so that only what comes too near is pushed twice.
+double distance(const Plane& plane, const PlaneLaw& law) {
+  return plane.behind == Behind::dummy ? 0.5 * law.distance : law.distance;
+}
+
 /// Force of a plane on a particle; zero where it does not touch.
 Vec3 force_on_particle(const Plane& plane, const PlaneLaw& law, const Line& x) {
-  const double p = law.distance - height(plane, x);
+  const double p = distance(plane, law) - height(plane, x);
   return p > 0 ? Vec3(plane.normal * (law.rate2 * x.w * p)) : Vec3(Vec3::Zero());
 }
 
@@ -44,16 +50,19 @@ void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
 }
 
 /// A particle that starts behind a wall would be shot out of it: a mistake in the case.
-void complain_of_particles_behind(const Keys& root, const Scene& scene) {
+void complain_of_particles_behind(const Keys& root, const Scene& scene,
+                                  const ParticlesOnPlanes& state) {
   for (const Plane& plane : scene.planes) {
     Index n = 0;
     Index part = 0;
     for (Index i = 0; i < scene.particles.size(); ++i) {
+      const Index its_part = scene.particle_part[static_cast<std::size_t>(i)];
+      if (!(state.law[static_cast<std::size_t>(its_part)].distance > 0)) continue;
       if (height(plane, scene.nodes.x[static_cast<std::size_t>(scene.particles.begin + i)]) >= 0) {
         continue;
       }
       ++n;
-      part = scene.particle_part[static_cast<std::size_t>(i)];
+      part = its_part;
     }
     if (n == 0) continue;
     root.mistakes().add(plane.where,
@@ -119,9 +128,9 @@ void add_look(Scene& scene, ParticlesOnPlanes& state, Model& model, Ledger& ledg
 
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (scene.planes.empty() || scene.particles.empty()) return;
-  complain_of_particles_behind(root, scene);
   auto& state = scene.store.get<ParticlesOnPlanes>();
   set_laws(scene, state);
+  complain_of_particles_behind(root, scene, state);
   size_state(scene, state);
   add_measures(scene, state);
   Model& model = models.of_node(scene.particles.begin);
@@ -157,9 +166,10 @@ void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
       const auto node = static_cast<std::size_t>(scene.particles.begin + i);
       const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(i)]);
       const PlaneLaw& law = state.law[part];
+      if (!(law.distance > 0)) continue;  // the particles of a wall
       bool touches = false;
       for (std::size_t k = 0; k < n_planes; ++k) {
-        if (height(scene.planes[k], nodes.x[node]) >= law.distance) continue;
+        if (height(scene.planes[k], nodes.x[node]) >= distance(scene.planes[k], law)) continue;
         const Vec3 f = force_on_particle(scene.planes[k], law, nodes.x[node]);
         add_xyz(nodes.f[node], f);
         sums[k].force -= f;

@@ -46,6 +46,38 @@ void add_plane(const Keys& keys, const std::string& name, std::vector<Plane>& li
   list.push_back({name, keys.vector("point"), normal.normalized(), keys.where()});
 }
 
+/// What the boundary says of all its planes.
+void set_walls(const Keys& boundary, std::vector<Plane>& list, std::size_t first) {
+  for (const char* key : {"walls", "slip"}) {
+    if (boundary.has(key) && first == list.size()) {
+      boundary.complain(key, "says how planes act; there is no 'planes' or 'plane' here");
+      return;
+    }
+  }
+  const std::string walls = boundary.has("walls") ? boundary.word("walls") : "mirror";
+  const bool slips = !boundary.has("slip") || boundary.word("slip") == "free";
+  if (!slips && walls != "dummy") {
+    boundary.complain("slip", "water sticks to dummy particles alone: say walls: dummy");
+  }
+  for (std::size_t k = first; k < list.size(); ++k) {
+    list[k].behind = walls == "dummy"    ? Behind::dummy
+                     : walls == "mirror" ? Behind::mirror
+                                         : Behind::nothing;
+    list[k].slips = slips;
+  }
+}
+
+void add_boundary(const Keys& boundary, std::vector<Plane>& list) {
+  if (boundary.has("plane")) add_plane(boundary.map("plane"), boundary.name(), list);
+  if (!boundary.has("planes")) return;
+  const Keys planes = boundary.map("planes");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (planes.has(axes[static_cast<std::size_t>(axis)])) {
+      add_walls(planes, axis, boundary.name(), list);
+    }
+  }
+}
+
 }  // namespace
 
 Schema plane_schema() {
@@ -68,7 +100,21 @@ Schema plane_schema() {
                     .kind = Kind::vector,
                     .text = "points to the side of the material, of any length",
                     .required = true}};
-  return {{"boundaries.*", planes}, {"boundaries.*", plane}};
+  const Key walls{.name = "walls",
+                  .kind = Kind::choice,
+                  .text =
+                      "what stands behind the planes for particles: mirror images (across an "
+                      "axis only), layers of dummy particles, or contact alone",
+                  .choices = {"mirror", "dummy", "contact"}};
+  const Key slip{.name = "slip",
+                 .kind = Kind::choice,
+                 .text =
+                     "whether viscous water slides along the planes: free, or none (with walls: "
+                     "dummy)",
+                 .choices = {"free", "none"}};
+  Schema schema;
+  for (const Key& key : {planes, plane, walls, slip}) schema.push_back({"boundaries.*", key});
+  return schema;
 }
 
 std::vector<Plane> read_planes(const Keys& root) {
@@ -76,13 +122,9 @@ std::vector<Plane> read_planes(const Keys& root) {
   if (!root.has("boundaries")) return list;
   const Keys boundaries = root.map("boundaries");
   for (const std::string& name : boundaries.names()) {
-    const Keys boundary = boundaries.map(name);
-    if (boundary.has("plane")) add_plane(boundary.map("plane"), name, list);
-    if (!boundary.has("planes")) continue;
-    const Keys planes = boundary.map("planes");
-    for (int axis = 0; axis < 3; ++axis) {
-      if (planes.has(axes[static_cast<std::size_t>(axis)])) add_walls(planes, axis, name, list);
-    }
+    const std::size_t first = list.size();
+    add_boundary(boundaries.map(name), list);
+    set_walls(boundaries.map(name), list, first);
   }
   return list;
 }

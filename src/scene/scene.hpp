@@ -49,12 +49,17 @@ struct Part {
   [[nodiscard]] bool is_particles() const { return cell == Cell::none; }
 };
 
+/// What stands behind a plane for the water in front of it, besides the penalty of contact.
+enum class Behind { mirror, dummy, nothing };
+
 /// A rigid plane; the material is on the side that the normal points to.
 struct Plane {
   std::string name;
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
   Location where;
+  Behind behind = Behind::mirror;
+  bool slips = true;  ///< water slides along it; else it sticks
   // Of one that moves, kept by what moves it; point and normal are those of the stage.
   bool moves = false;
   bool turns = false;

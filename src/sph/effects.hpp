@@ -35,6 +35,13 @@ Effect renormalisation_effect();
 /// effects.xsph: particles move with the local mean velocity.
 Effect xsph_effect();
 
+/// parts.NAME.wall, and boundaries.NAME.walls: dummy: walls of dummy particles. Stands after `sph`,
+/// whose particles they are built around and whose passes they follow.
+Effect walls_effect();
+
+/// The pressure of wall particles. Stands before `sph`: the pair pass for the force reads it.
+Effect wall_pressure_effect();
+
 /// boundaries.NAME.periodic: directions in which the domain of the particles repeats. Stands late
 /// in the table: its copies come after everything else that moves particles in a stage, and its
 /// adding back after everything else that adds forces.

@@ -28,10 +28,10 @@ namespace gannet {
 
 namespace {
 
-/// The axis that a plane stands across; -1 for one that leans or turns, which
-/// only pushes.
+/// The axis that a plane mirrors across; -1 for one that leans or turns, which
+/// only pushes, and for one that was asked to do without images.
 int axis_of(const Plane& plane, const Scene& scene) {
-  if (plane.turns) return -1;
+  if (plane.turns || plane.behind != Behind::mirror) return -1;
   for (int d = 0; d < scene.dimension; ++d) {
     if (std::abs(plane.normal[d]) == 1) return d;
   }

@@ -16,6 +16,7 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 /// What a gauge adds up over the particles near it.
 struct GaugeSums {
   double volume = 0;    ///< sum V W [-]
+  double fluid = 0;     ///< the part of it that is fluid [-]
   double pressure = 0;  ///< sum V W p [Pa]
   double head = 0;      ///< sum V W rho g . (x - x_j): what still water has more at the gauge [Pa]
   double p0 = std::numeric_limits<double>::infinity();  ///< least of their p0 [Pa]
@@ -31,6 +32,8 @@ void add_source(const SphState& sph, const Scene& scene, Index k, const Vec3& r,
   sums.volume += VW;
   sums.pressure += VW * sph.p[k];
   sums.head += VW * sph.rho[k] * scene.gravity.dot(from_source);
+  if (!is_fluid(scene, k)) return;
+  sums.fluid += VW;
   sums.p0 = std::min(sums.p0, eos_of(sph, scene, k).p0);
 }
 
@@ -58,7 +61,7 @@ GaugeSums sums_beside(const SphState& sph, const Scene& scene, const ParticleBox
 }
 
 double pressure_of(const GaugeSums& sums) {
-  if (!(sums.volume > 0)) return 0;
+  if (!(sums.fluid > 0)) return 0;
   const double mean = sums.pressure / sums.volume;
   return std::max(mean + sums.head / sums.volume, std::min(mean, sums.p0));
 }
@@ -81,6 +84,7 @@ std::vector<OnColumn> particles_on_column(const SphState& sph, const Scene& scen
       return (low - at).cwiseMax(at - high).cwiseProduct(across).maxCoeff() < reach;
     };
     for_particles_in(boxes, scene, near, [&](Index k, const Vec3& x) {
+      if (!is_fluid(scene, k)) return;
       const Vec3 d = x - at;
       const double s = d.dot(up);
       const double off2 = (d - s * up).squaredNorm();
@@ -102,7 +106,7 @@ double pressure_at(const SphState& sph, const Scene& scene, const ParticleBoxes&
 
 double volume_fraction_at(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
                           const Vec3& x) {
-  return sums_at(sph, scene, boxes, x).volume;
+  return sums_at(sph, scene, boxes, x).fluid;
 }
 
 double pressure_beside(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,
@@ -110,7 +114,7 @@ double pressure_beside(const SphState& sph, const Scene& scene, const ParticleBo
   if (at.side != 0) return pressure_of(sums_beside(sph, scene, boxes, at, at.side));
   const GaugeSums front = sums_beside(sph, scene, boxes, at, 1);
   const GaugeSums back = sums_beside(sph, scene, boxes, at, -1);
-  return pressure_of(front.volume >= back.volume ? front : back);
+  return pressure_of(front.fluid >= back.fluid ? front : back);
 }
 
 double surface_height_on(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,

@@ -8,13 +8,14 @@
 
 namespace gannet {
 
-/// Pressure at a point [Pa], the normalised kernel sum over particles and images within the
-/// kernel's reach of what still water with their pressure would have there:
+/// Pressure at a point [Pa], the normalised kernel sum over particles, those of walls
+/// too, and images within the kernel's reach of what still water with their pressure would have
+/// there:
 ///   p(x) = sum_j V_j W(|x - x_j|) (p_j + rho_j g . (x - x_j)) / sum_j V_j W(|x - x_j|),  V_j =
 ///   m/rho_j
 /// (for an image, x_j in the head is the place of its source), so that it is right for water at
 /// rest at walls and surfaces too, where the neighbours stand on one side; but no lower than p0, or
-/// than the mean of p_j where that is lower. Zero where no particle is that near: a dry gauge.
+/// than the mean of p_j where that is lower. Zero where no fluid is that near: a dry gauge.
 /// Pressures are as the equation of state gives them: p0 is what a particle at rho0 has. x: 3 [m].
 /// Costs a look at the boxes and at the particles of those nearby.
 double pressure_at(const SphState& sph, const Scene& scene, const ParticleBoxes& boxes,

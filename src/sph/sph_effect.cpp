@@ -132,11 +132,12 @@ Vec3 upwards(const Scene& scene) {
   return scene.dimension == 3 ? Vec3::UnitZ() : Vec3::UnitY();
 }
 
-/// Highest particle of a part (of all, for part < 0) along a direction [m].
+/// Highest particle of a part (of all that are fluid, for part < 0) along a direction [m].
 double highest(const Scene& scene, const Vec3& along, int part) {
   double most = -std::numeric_limits<double>::infinity();
   for (Index k = 0; k < scene.particles.size(); ++k) {
     if (part >= 0 && scene.particle_part[k] != part) continue;
+    if (!is_fluid(scene, k)) continue;
     most = std::max(most, along.dot(xyz(scene.nodes.x[scene.particles.begin + k])));
   }
   return most;
@@ -229,12 +230,6 @@ void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& 
     sph.rho0 = std::max(sph.rho0, eos.rho0);
     materials[number] = {sph.dx, eos.rho0, c0};
   }
-}
-
-KernelType kernel_named(const std::string& name) {
-  if (name == "wendland_c2") return KernelType::wendland_c2;
-  if (name == "wendland_c4") return KernelType::wendland_c4;
-  return name == "quintic_spline" ? KernelType::quintic_spline : KernelType::cubic_spline;
 }
 
 void make_state(const Keys& root, Scene& scene) {

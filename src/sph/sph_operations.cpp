@@ -9,39 +9,10 @@
 
 namespace gannet {
 
-PairParameters parameters_of(const SphState& sph) {
-  return {.dimension = sph.kernel.dimension,
-          .h = sph.h,
-          .m = sph.m,
-          .c0 = sph.c0,
-          .alpha = sph.terms.alpha,
-          .beta = sph.terms.beta,
-          .epsilon = sph.terms.epsilon,
-          .kernel = sph.kernel.type,
-          .rho0 = sph.rho0,
-          .dx = sph.dx,
-          .delta = sph.terms.delta,
-          .mu = sph.terms.mu,
-          .tensile = sph.terms.tensile};
-}
-
-namespace {
-
-ParticleView view_of(const SphState& sph, const Scene& scene) {
-  const Index first = scene.particles.begin;
-  ParticleView view;
-  view.x = scene.nodes.x.data() + first;
-  view.v = scene.nodes.v.data() + first;
-  view.rho = sph.rho.data();
-  view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
-  return view;
-}
-
-}  // namespace
-
 void pack_for_force(SphState& sph, const Scene& scene) {
   ParticleView view = view_of(sph, scene);
   view.p = sph.p.data();
+  if (!sph.v_seen.empty()) view.v = sph.v_seen.data();
   pack_particles(view, sph.kernel.reach(), sph.packed);
   sph.packed_pressures = true;
 }

@@ -54,6 +54,38 @@ double high_speed(SphState& sph, const Scene& scene, double dt) {
 
 }  // namespace
 
+KernelType kernel_named(const std::string& name) {
+  if (name == "wendland_c2") return KernelType::wendland_c2;
+  if (name == "wendland_c4") return KernelType::wendland_c4;
+  return name == "quintic_spline" ? KernelType::quintic_spline : KernelType::cubic_spline;
+}
+
+ParticleView view_of(const SphState& sph, const Scene& scene) {
+  const Index first = scene.particles.begin;
+  ParticleView view;
+  view.x = scene.nodes.x.data() + first;
+  view.v = scene.nodes.v.data() + first;
+  view.rho = sph.rho.data();
+  view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
+  return view;
+}
+
+PairParameters parameters_of(const SphState& sph) {
+  return {.dimension = sph.kernel.dimension,
+          .h = sph.h,
+          .m = sph.m,
+          .c0 = sph.c0,
+          .alpha = sph.terms.alpha,
+          .beta = sph.terms.beta,
+          .epsilon = sph.terms.epsilon,
+          .kernel = sph.kernel.type,
+          .rho0 = sph.rho0,
+          .dx = sph.dx,
+          .delta = sph.terms.delta,
+          .mu = sph.terms.mu,
+          .tensile = sph.terms.tensile};
+}
+
 void advance_density(SphState& sph, const Scene& scene, double dt) {
   parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {

@@ -65,6 +65,7 @@ struct SphState {
   Array<double> s;            ///< what density diffusion evens out [kg/m^3]; empty without it
   Array<Line> shift;          ///< drift of the last step by shifting [m/s]; empty without it
   Array<Line> concentration;  ///< its gradient [1/m], w: div r [-]; empty where nobody asks
+  Array<Line> v_seen;  ///< velocity that viscous terms see, ghosts too [m/s]; empty: v itself
 
   PairTerms terms;
   Halo halo;
@@ -79,12 +80,23 @@ struct SphState {
   bool warned = false;            ///< the user knows that sound is too slow
 };
 
+/// Whether source k is fluid, and not a particle of a wall.
+inline bool is_fluid(const Scene& scene, Index k) {
+  return scene.parts[static_cast<std::size_t>(scene.particle_part[k])].kind == "sph";
+}
+
 /// The equation of state of particle k.
 inline const Murnaghan& eos_of(const SphState& sph, const Scene& scene, Index k) {
   return sph.eos[scene.particle_part[k]];
 }
 
-/// What both pair passes are told.
+/// The kernel of that name in a case.
+KernelType kernel_named(const std::string& name);
+
+/// The particles, ghosts too, as pair passes read them; without p and s.
+ParticleView view_of(const SphState& sph, const Scene& scene);
+
+/// What pair passes are told.
 PairParameters parameters_of(const SphState& sph);
 
 /// Sum of f(k) over the particles of a part, in chunks that are the same for any number of threads.

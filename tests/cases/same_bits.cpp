@@ -65,6 +65,10 @@ Sample shaken_sample() {
   return {[] { return std::make_unique<WatchedRun>(shaken_tank); }, 150, false};
 }
 
+Sample walls_sample() {
+  return {[] { return std::make_unique<WatchedRun>(channel); }, 150, false};
+}
+
 /// Runs a sample from its start; returns it at its end.
 std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
   set_threads(n_threads);
@@ -228,6 +232,10 @@ TEST_CASE("same bits: every term of the pair passes, cut five times, as if never
   check_restart(terms_sample(GENERATE("double", "single")));
 }
 
+TEST_CASE("same bits: moving walls of dummy particles, 1, 2, 3 and 5 threads", "[bits]") {
+  check_threads(walls_sample());
+}
+
 TEST_CASE("same bits: panel on water, cut five times and resumed, as if never cut", "[bits]") {
   check_restart(panel_sample());
 }
@@ -239,6 +247,10 @@ TEST_CASE("same bits: dam break, cut five times and resumed, as if never cut", "
 TEST_CASE("same bits: periodic shear layer, cut five times and resumed, as if never cut",
           "[bits]") {
   check_restart(periodic_sample());
+}
+
+TEST_CASE("same bits: moving walls of dummy particles, cut five times and resumed", "[bits]") {
+  check_restart(walls_sample());
 }
 
 TEST_CASE("same bits: a restart that lacks a field of the state is noticed", "[bits]") {

@@ -81,4 +81,30 @@ inline const std::vector<std::string> all_terms{"let.dx=a/45",
                                                 "effects.shifting.coefficient=0.5",
                                                 "effects.renormalisation.every=7"};
 
+/// A channel that repeats in x: 60 x 36 particles of water between walls of dummy particles, a
+/// floor that moves, a lid that does not and a wheel that turns.
+inline const std::string channel = R"(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 10 mm}
+    fill: {box: {from: [0, 0, 0], to: [0.6 m, 0.36 m, 0]}}
+    initial_velocity: [0.5 m/s, 0.2 m/s, 0]
+  floor:
+    wall: {slip: none, velocity: [-1 m/s, 0.2 m/s, 0], factor: [[0, 0], [20 ms, 1], [60 ms, -1]]}
+    fill: {box: {from: [0, -30 mm, 0], to: [0.6 m, 0, 0]}}
+  wheel:
+    wall: {like: pool, angular_velocity: [0, 0, 5 rad/s], centre: [0.3 m, 0.46 m, 0]}
+    fill: {box: {from: [0.27 m, 0.43 m, 0], to: [0.33 m, 0.49 m, 0]}}
+boundaries:
+  sides: {periodic: {x: [0, 0.6 m]}}
+  lid: {plane: {point: [0, 0.55 m, 0], normal: [0, -1, 0]}, walls: dummy, slip: none}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+effects:
+  viscosity: {type: monaghan, alpha: 0.1}
+  xsph: {epsilon: 0.5}
+output: {until: 10 s, checkpoint: never}
+)";
+
 }  // namespace gannet::test

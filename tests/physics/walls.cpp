@@ -1,0 +1,125 @@
+// Walls of dummy particles: momentum and energy that pass between water and wall.
+#include <algorithm>
+
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A column that collapses in a basin. parts: further ones; alpha: of the viscosity.
+std::string basin(const char* slip, const char* parts, const char* alpha) {
+  return fmt::format(R"(gannet: 1
+title: Water sloshes between dummy particles
+dimension: 2
+let: {{dx: 20 mm}}
+materials: {{water: {{card: water, c0: 40 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: dx, cfl: 0.35}}
+    fill: {{box: {{from: [0, 0, 0], to: [0.6 m, 0.5 m, 0]}}}}
+    start: hydrostatic
+{}
+boundaries: {{tank: {{planes: {{x: [0, 1 m], y: 0}}, walls: dummy, slip: {}}}}}
+loads: {{gravity: [0, -9.81 m/s^2, 0]}}
+effects: {{viscosity: {{type: monaghan, alpha: {}}}}}
+output: {{until: 10 s}}
+)",
+                     parts, slip, alpha);
+}
+
+const char* const piston = R"(  piston:
+    fill: {box: {from: [0.6 m, 0, 0], to: [0.66 m, 0.8 m, 0]}}
+    wall: {slip: none, velocity: [-1 m/s, 0, 0], factor: [[0, 0], [0.1 s, 1], [0.2 s, 0]]}
+)";
+
+/// Of the fluid alone, at entry to a step.
+Total momentum_of_fluid(const Scene& scene) {
+  Total p;
+  for (Index k = 0; k < scene.particles.size(); ++k) {
+    if (scene.parts[static_cast<std::size_t>(scene.particle_part[k])].kind != "sph") continue;
+    const auto i = static_cast<std::size_t>(scene.particles.begin + k);
+    const Vec3 mv = scene.nodes.x[i].w * xyz(scene.nodes.v[i]);
+    p.sum += mv;
+    p.scale += mv.norm();
+  }
+  return p;
+}
+
+Index n_fluid(const Scene& scene) {
+  Index n = 0;
+  for (const Index part : scene.particle_part) {
+    n += scene.parts[static_cast<std::size_t>(part)].kind == "sph" ? 1 : 0;
+  }
+  return n;
+}
+
+/// Largest |change of momentum - impulse of walls, planes and weight| of a step, over sum m |v|.
+double worst_balance(Simulation& s, int n_steps) {
+  const Scene& scene = s.scene;
+  const Vec3 weight = n_fluid(scene) * s.scene.store.get<SphState>().m * scene.gravity;
+  double worst = 0;
+  for (int n = 0; n < n_steps; ++n) {
+    const Total before = momentum_of_fluid(scene);
+    const double dt_old = s.models.list.front().step.dt_old;
+    advance(s.models);
+    const double dt = 0.5 * (dt_old + s.models.list.front().step.dt_old);
+    Vec3 force = weight;
+    for (const Measure& m : scene.measures) {
+      const bool wall = m.name.starts_with("wall.") && m.name.ends_with(".force");
+      if (!wall && !m.name.starts_with("plane.")) continue;
+      double f[3];
+      m.sample(f);
+      force -= Vec3(f[0], f[1], f[2]);
+    }
+    const Total after = momentum_of_fluid(scene);
+    if (n < 10) continue;  // from rest: the scale is near 0
+    worst = std::max(worst, (after.sum - before.sum - dt * force).norm() / after.scale);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("physics: what walls and weight give is the momentum of the water", "[physics]") {
+  for (const char* slip : {"free", "none"}) {
+    const auto s = make_simulation_of_text(basin(slip, piston, "0.2"));
+    const double worst = worst_balance(*s, 600);
+    WARN(fmt::format("slip {}: worst imbalance of a step {:.1e} of sum m|v|", slip, worst));
+    CHECK(worst < 1e-12);
+  }
+}
+
+TEST_CASE("physics: a column that sloshes between dummy walls keeps its energy", "[physics]") {
+  const auto s = make_simulation_of_text(basin("none", "", "0.05"));
+  double most = 0;
+  double wall = 0;
+  run_until(*s, 0.7, [&] {
+    most = std::max(most, energy_error(*s));
+    wall = std::max(wall, std::abs(ledger_sum(*s, "wall")));
+  });
+  const double scale = s->scene.store.get<GuardState>().balance.largest_total;
+  WARN(fmt::format("largest energy error {:.2e}, entry wall up to {:.2e} of the energy", most,
+                   wall / scale));
+  CHECK(most < 1.5e-3);        // of the scheme in time: a quarter with half the step
+  CHECK(wall / scale > most);  // without the entry the balance would not close
+}
+
+TEST_CASE("physics: the work of a piston is the energy that the water gains", "[physics]") {
+  const auto s = make_simulation_of_text(basin("free", piston, "0.05"));
+  run_until(*s, 0.3, [] {});
+  const double work = ledger_sum(*s, "wall motion");
+  const GuardState& guard = s->scene.store.get<GuardState>();
+  WARN(fmt::format("the piston does {:.4g} J of work; energy error {:.2e}, {:.2e} of that work",
+                   work, energy_error(*s), std::abs(guard.balance.imbalance) / work));
+  CHECK(work > 1);
+  CHECK(std::abs(guard.balance.imbalance) < 1e-4 * work);
+  // It stands where the integral of its velocity says: 0.1 m further in.
+  double low = 1e9;
+  const int part = s->scene.part_number("piston");
+  for_particles(s->scene, [&](std::size_t k, const Vec3& x, const Vec3&) {
+    if (s->scene.particle_part[k] == part) low = std::min(low, x.x());
+  });
+  CHECK(low == Approx(0.6 + 0.01 - 0.1).epsilon(1e-12));
+}
