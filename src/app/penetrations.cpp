@@ -38,6 +38,7 @@ void add_planes(Scene& scene, std::vector<StartOverlap>& list) {
       const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(k)]);
       const Line& x = scene.nodes.x[static_cast<std::size_t>(scene.particles.begin + k)];
       const double d = law[part].distance;
+      if (!(d > 0)) continue;  // the particles of a wall
       const double depth = d - plane.normal.dot(xyz(x) - plane.point);
       if (!(depth > 1e-9 * d)) continue;
       ++o.count;
