@@ -9,7 +9,7 @@ using namespace gannet::test;
 
 namespace {
 
-constexpr double until = 0.76;  // A t, by then b/a is 4 [s]
+constexpr double until = 0.76;  // with A = 1/s at the start; by then b/a is 3.8 [s]
 
 /// One row of the drop of radius 1 m, which is all that lies in it of a lattice with n spacings to
 /// the radius.
