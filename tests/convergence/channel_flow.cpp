@@ -108,9 +108,9 @@ Result run(int n, double u_lid, double g_x, double (*exact)(double, double)) {
 
 /// Runs 12, 24 and 48 particles across; least: the order from 12 to 24 at each of the three times.
 /// They were set below what was observed. Couette flow stops to converge at about 0.1 % of U and
-/// its drag stays 0.8 % high at every spacing: on a square lattice with h = 1.3 dx the viscous sum
-/// -sum_j V_j W'(r_j) y_j^2/r_j is 1.0105 and not 1, whatever dx is, so that the fluid is 1 % more
-/// viscous than asked for (0.9991 at h = 2 dx).
+/// its drag stays 0.8 % high at every spacing. Most of it is the bias of the viscous sum where rows
+/// slide past one another, 0.6 % (docs/theory.md); where the rest comes from has not been found
+/// out.
 void compare(const char* name, double u_lid, double g_x, double (*exact)(double, double),
              const std::vector<double>& least, double exact_drag) {
   std::vector<Result> results;
