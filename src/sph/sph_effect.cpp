@@ -239,7 +239,8 @@ void make_state(const Keys& root, Scene& scene) {
   const Keys first = parts.front().map("sph");
   sph.dx = first.number("spacing");
   const KernelType kernel = kernel_named(first.word("kernel"));
-  const double ratio = first.number_or("smoothing_ratio", usual_smoothing_ratio(kernel));
+  const double ratio =
+      first.number_or("smoothing_ratio", usual_smoothing_ratio(kernel, scene.dimension));
   sph.h = ratio * sph.dx;
   sph.kernel = {kernel, scene.dimension, sph.h};
   sph.packed.single = first.word("precision") == "single";

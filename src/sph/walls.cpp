@@ -129,7 +129,8 @@ WallRegion region_of(const Keys& root, const Draft& draft) {
   region.dimension = draft.dimension;
   region.dx = sph.number("spacing");
   const KernelType kernel = kernel_named(sph.word("kernel"));
-  const double ratio = sph.number_or("smoothing_ratio", usual_smoothing_ratio(kernel));
+  const double ratio =
+      sph.number_or("smoothing_ratio", usual_smoothing_ratio(kernel, draft.dimension));
   region.n_layers = static_cast<int>(std::ceil(support(kernel) * ratio - 1e-9));
   Eigen::AlignedBox3d box;
   for (const PartDraft& part : draft.parts) {

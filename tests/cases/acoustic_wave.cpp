@@ -46,11 +46,12 @@ double windowed_square(const std::vector<double>& a, std::size_t begin, std::siz
 ///   dt/2.
 double expected_period(double dt) {
   constexpr double dx = 0.02;
+  const double h = usual_smoothing_ratio(KernelType::cubic_spline, 2) * dx;
   double slope = 0;
   for (int j = -3; j <= 3; ++j) {
     for (int i = -3; i <= 3; ++i) {
       const double r = dx * std::hypot(i, j);
-      slope += dx * dx * cubic_spline::F(2, r, 1.3 * dx) * i * dx * std::sin(2 * M_PI * i * dx);
+      slope += dx * dx * cubic_spline::F(2, r, h) * i * dx * std::sin(2 * M_PI * i * dx);
     }
   }
   const double omega = c0 * std::abs(slope);

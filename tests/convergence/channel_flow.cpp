@@ -43,7 +43,9 @@ double poiseuille(double y, double t) {
   return u;
 }
 
-/// n particles across the channel, half as many along it.
+/// n particles across the channel, half as many along it; h/dx 1.3, where the viscous sum over a
+/// lattice has no bias. At the usual 1.25 both flows end 0.1 % of U off with 48 across, and the
+/// drag of Couette's is 0.2 % high.
 std::string channel(int n, double u_lid, double g_x) {
   return fmt::format(R"(gannet: 1
 title: Flow between two plates
@@ -51,7 +53,7 @@ dimension: 2
 materials: {{oil: {{density: 1000, c0: 12 m/s}}}}
 parts:
   oil:
-    sph: {{material: oil, spacing: {} m}}
+    sph: {{material: oil, spacing: {} m, smoothing_ratio: 1.3}}
     fill: {{box: {{from: [0, 0, 0], to: [0.5 m, 1 m, 0]}}}}
   lid:
     wall: {{slip: none, velocity: [{} m/s, 0, 0]}}

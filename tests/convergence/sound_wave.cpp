@@ -110,13 +110,12 @@ Series series(const std::string& sph, const std::string& effects) {
 struct Kernel {
   const char* kernel;
   KernelType type;
-  double ratio;
 };
 
 /// Sum of V F x^2 over a square lattice in the plane, less -1: what the lattice leaves of the
 /// divergence and of the pressure gradient, however small h is.
 double lattice_bias(const Kernel& c) {
-  const SmoothingKernel kernel{c.type, 2, c.ratio};
+  const SmoothingKernel kernel{c.type, 2, usual_smoothing_ratio(c.type, 2)};
   double sum = 0;
   for (int i = -6; i <= 6; ++i) {
     for (int j = -6; j <= 6; ++j) sum -= kernel.F(std::hypot(i, j)) * i * i;
@@ -124,10 +123,10 @@ double lattice_bias(const Kernel& c) {
   return sum - 1;
 }
 
-const std::vector<Kernel> choices = {{"cubic_spline", KernelType::cubic_spline, 1.3},
-                                     {"wendland_c2", KernelType::wendland_c2, 1.5},
-                                     {"wendland_c4", KernelType::wendland_c4, 1.7},
-                                     {"quintic_spline", KernelType::quintic_spline, 1.0}};
+const std::vector<Kernel> choices = {{"cubic_spline", KernelType::cubic_spline},
+                                     {"wendland_c2", KernelType::wendland_c2},
+                                     {"wendland_c4", KernelType::wendland_c4},
+                                     {"quintic_spline", KernelType::quintic_spline}};
 
 }  // namespace
 
