@@ -133,7 +133,17 @@ void set_dry_values(Walls& walls, SphState& sph, const Scene& scene) {
 
 }  // namespace
 
-Vec3 mean_velocity(const WallMotion& motion, const Vec3& x, const Step& step) {
+bool moves(const Wall& wall, const Scene& scene) {
+  return wall.plane >= 0 ? scene.planes[static_cast<std::size_t>(wall.plane)].moves
+                         : wall.motion.moves();
+}
+
+Vec3 mean_velocity(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step) {
+  if (wall.plane >= 0) {
+    const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
+    return plane.velocity + turned_by(step.dt * plane.spin, x - plane.point) / step.dt;
+  }
+  const WallMotion& motion = wall.motion;
   const double factor = mean_over(motion.factor, step.t, step.t + step.dt);
   Vec3 v = factor * motion.velocity;
   if (motion.omega.isZero(0)) return v;
@@ -141,15 +151,28 @@ Vec3 mean_velocity(const WallMotion& motion, const Vec3& x, const Step& step) {
   return v + turned_by(theta, x - centre_at(motion, step.t)) / step.dt;
 }
 
-Vec3 velocity_at(const WallMotion& motion, const Vec3& x, double t) {
-  const double factor = value_at(motion.factor, t);
-  return factor * (motion.velocity + motion.omega.cross(x - centre_at(motion, t)));
+Vec3 velocity_at_start(const Wall& wall, const Scene& scene, const Vec3& x) {
+  if (wall.plane >= 0) {
+    const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
+    return plane.velocity + plane.spin.cross(x - plane.point);
+  }
+  const WallMotion& motion = wall.motion;
+  return value_at(motion.factor, 0) * (motion.velocity + motion.omega.cross(x - motion.centre));
 }
 
-Vec3 acceleration_at(const WallMotion& motion, const Vec3& x, double t) {
-  const double factor = value_at(motion.factor, t);
-  const double slope = slope_at(motion.factor, t);
-  const Vec3 r = x - centre_at(motion, t);
+Vec3 acceleration_at(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step) {
+  if (wall.plane >= 0) {
+    const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
+    if (!(step.dt_old > 0)) return Vec3::Zero();
+    const Vec3 r = x - plane.point;
+    return (plane.velocity - plane.velocity_old) / step.dt_old +
+           ((plane.spin - plane.spin_old) / step.dt_old).cross(r) +
+           plane.spin.cross(plane.spin.cross(r));
+  }
+  const WallMotion& motion = wall.motion;
+  const double factor = value_at(motion.factor, step.t);
+  const double slope = slope_at(motion.factor, step.t);
+  const Vec3 r = x - centre_at(motion, step.t);
   const Vec3 omega = factor * motion.omega;
   return slope * (motion.velocity + motion.omega.cross(r)) + omega.cross(omega.cross(r));
 }
@@ -163,7 +186,7 @@ void set_wall_pressure(Walls& walls, SphState& sph, Scene& scene, const Step& st
             walls.sums);
   for_wet_particles(walls, scene, [&](Index k, const Wall& wall, const WallSums& sums) {
     Vec3 g_minus_a = scene.gravity;
-    if (wall.motion.moves()) g_minus_a -= acceleration_at(wall.motion, xyz(view.x[k]), step.t);
+    if (moves(wall, scene)) g_minus_a -= acceleration_at(wall, scene, xyz(view.x[k]), step);
     const WallValues values = wall_values(sums, g_minus_a);
     set_pressure(walls, sph, scene, k, values.p);
     set_xyz(sph.v_seen[k], wall.slips ? values.v : Vec3(2 * xyz(view.v[k]) - values.v));
@@ -233,14 +256,15 @@ void kick_walls(Walls& walls, Scene& scene, const Step& step) {
   for_wall_particles(walls, scene, [&](Index k, const Wall& wall) {
     const std::size_t i = first + static_cast<std::size_t>(k);
     const Vec3 f = xyz(nodes.f[i]);
-    if (!wall.motion.moves()) {
+    if (!moves(wall, scene)) {
       set_xyz(walls.reaction[k], -f);
       set_xyz(nodes.f[i], Vec3::Zero());
       set_xyz(nodes.v[i], Vec3::Zero());
       return;
     }
-    const Vec3 v = mean_velocity(wall.motion, xyz(nodes.x[i]), step);
-    const Vec3 R = (v - xyz(nodes.v[i])) / (nodes.v[i].w * dt);
+    const Vec3 v = mean_velocity(wall, scene, xyz(nodes.x[i]), step);
+    // Before the first level a wall has moved as it does from then on: nothing had to set it going.
+    const Vec3 R = step.dt_old > 0 ? Vec3((v - xyz(nodes.v[i])) / (nodes.v[i].w * dt)) : Vec3(-f);
     set_xyz(walls.reaction[k], R);
     set_xyz(nodes.f[i], f + R);
     set_xyz(nodes.v[i], v);

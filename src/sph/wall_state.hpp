@@ -29,6 +29,7 @@ struct Wall {
   Location where;
   bool slips = true;
   WallMotion motion;
+  int plane = -1;  ///< number in scene.planes of the plane that it backs, and whose motion it has
   // What the last step says, at level n:
   Vec3 force = Vec3::Zero();          ///< of the fluid on the wall [N]
   Vec3 viscous_force = Vec3::Zero();  ///< the viscous part of it [N]
@@ -70,14 +71,20 @@ struct Walls {
   }
 };
 
-/// Velocity that takes a particle at x from level n to its place at n+1 on the wall [m/s]: the mean
-/// over the step of v = V(t) + omega(t) x (x - c(t)), along the chord of its circle. x: 3 [m].
-Vec3 mean_velocity(const WallMotion& motion, const Vec3& x, const Step& step);
+/// Whether a wall ever moves.
+bool moves(const Wall& wall, const Scene& scene);
 
-/// Velocity and acceleration of a point x of the wall at time t [m/s], [m/s^2]; jumps of the
-/// factor have no acceleration.
-Vec3 velocity_at(const WallMotion& motion, const Vec3& x, double t);
-Vec3 acceleration_at(const WallMotion& motion, const Vec3& x, double t);
+/// Velocity that takes a particle at x from level n to its place at n+1 on the wall [m/s]: the mean
+/// over the step of v = V(t) + omega(t) x (x - c(t)), along the chord of its circle. x: 3 [m]. A
+/// wall behind a plane takes what the plane's own motion chose for the step.
+Vec3 mean_velocity(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step);
+
+/// Velocity of a point x of the wall at t = 0 [m/s].
+Vec3 velocity_at_start(const Wall& wall, const Scene& scene, const Vec3& x);
+
+/// Acceleration of a point x of the wall at level n [m/s^2]; jumps of the factor have none. Behind
+/// a plane, whose motion is known by mean velocities of steps, that of half a step before.
+Vec3 acceleration_at(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step);
 
 /// Gives wall particles p_w, rho_w = rho(p_w) and the velocity that viscous terms see, from the
 /// fluid near them at level n:

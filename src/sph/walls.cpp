@@ -240,20 +240,6 @@ void require_plane_motion(const Keys& wall, const WallMotion& motion) {
   }
 }
 
-/// Layers of particles stand where they were made.
-void require_planes_at_rest(const Keys& root, const Scene& scene) {
-  for (const Plane& plane : scene.planes) {
-    if (plane.behind != Behind::dummy || !plane.moves) continue;
-    root.mistakes().add(
-        plane.where,
-        fmt::format("the dummy particles behind plane '{}' do not move with it; make the "
-                    "wall a part that moves (wall: {{velocity, angular_velocity}}), or let "
-                    "the plane mirror the water (walls: mirror)",
-                    plane.name));
-    return;
-  }
-}
-
 void read_walls(const Keys& root, const Scene& scene, Walls& walls) {
   for (const std::string& name : parts_with(root, "wall")) {
     const int part = scene.part_number(name);
@@ -268,14 +254,16 @@ void read_walls(const Keys& root, const Scene& scene, Walls& walls) {
     if (scene.dimension == 2) require_plane_motion(keys, wall.motion);
     walls.list.push_back(std::move(wall));
   }
-  for (const Plane& plane : backed_planes(root)) {
-    const int part = scene.part_number(plane.name);
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    const int part = plane.behind == Behind::dummy ? scene.part_number(plane.name) : -1;
     if (part < 0) continue;
     walls.list.push_back({.part = part,
                           .fluid = scene.part_number(parts_with(root, "sph").front()),
                           .name = plane.name,
                           .where = plane.where,
-                          .slips = plane.slips});
+                          .slips = plane.slips,
+                          .plane = static_cast<int>(k)});
   }
 }
 
@@ -286,7 +274,6 @@ void track(Scene& scene, Field field) {
 
 void make_state(const Keys& root, Scene& scene) {
   Walls read;
-  require_planes_at_rest(root, scene);
   read_walls(root, scene, read);
   if (read.list.empty()) return;
   Walls& walls = scene.store.get<Walls>();
@@ -313,7 +300,7 @@ void make_state(const Keys& root, Scene& scene) {
     const auto i = static_cast<std::size_t>(scene.particles.begin + k);
     sph.rho[k] = eos_of(sph, scene, k).rho0;
     sph.p[k] = eos_of(sph, scene, k).p0;
-    set_xyz(scene.nodes.v[i], velocity_at(wall->motion, xyz(scene.nodes.x[i]), 0));
+    set_xyz(scene.nodes.v[i], velocity_at_start(*wall, scene, xyz(scene.nodes.x[i])));
   }
 }
 
@@ -394,6 +381,7 @@ void add_operations(const Keys& /*root*/, Scene& scene, Models& models) {
   plan.add({.name = "motion of walls",
             .reason = reason,
             .stage = Stage::kick,
+            .reads = {"planes"},
             .writes = {"v", "f"},
             .run = [&](const Step& step) { kick_walls(walls, scene, step); }});
   plan.add({.name = "density rate of walls",

@@ -118,22 +118,54 @@ TEST_CASE("walls: a plane that leans gets layers along itself, clear of its neig
 
 TEST_CASE("walls: a wall that turns keeps its radius, and its acceleration points inwards",
           "[sph]") {
-  const WallMotion motion{
-      .velocity = {1, 0, 0}, .omega = {0, 0, 2}, .centre = {0, 1, 0}, .factor = {}};
+  const Scene scene;
+  Wall wall;
+  wall.motion = {.velocity = {1, 0, 0}, .omega = {0, 0, 2}, .centre = {0, 1, 0}, .factor = {}};
   Vec3 x(0, 3, 0);
+  CHECK((velocity_at_start(wall, scene, x) - Vec3(-3, 0, 0)).norm() < 1e-15);
   Step step;
   step.dt = 0.1;
   for (int n = 0; n < 50; ++n) {
-    x += step.dt * mean_velocity(motion, x, step);
+    x += step.dt * mean_velocity(wall, scene, x, step);
     step.t += step.dt;
   }
   const Vec3 expected = Vec3(5, 1, 0) + 2 * Vec3(-std::sin(10.0), std::cos(10.0), 0);
   CHECK((x - expected).norm() < 1e-12);
   const Vec3 r = x - Vec3(5, 1, 0);
-  CHECK((acceleration_at(motion, x, 5) + 4 * r).norm() < 1e-12);
-  CHECK((velocity_at(motion, x, 5) - Vec3(1 - 2 * r.y(), 2 * r.x(), 0)).norm() < 1e-12);
-  WallMotion ramped{.velocity = {3, 0, 0}};
-  ramped.factor = {{0, 2}, {0, 4}};
-  CHECK(acceleration_at(ramped, x, 1).x() == Approx(6));
-  CHECK(acceleration_at(ramped, x, 3).x() == 0);
+  CHECK((acceleration_at(wall, scene, x, step) + 4 * r).norm() < 1e-12);
+  wall.motion = {.velocity = {3, 0, 0}};
+  wall.motion.factor = {{0, 2}, {0, 4}};
+  step.t = 1;
+  CHECK(acceleration_at(wall, scene, x, step).x() == Approx(6));
+  step.t = 3;
+  CHECK(acceleration_at(wall, scene, x, step).x() == 0);
+}
+
+TEST_CASE("walls: layers behind a plane go with it as a rigid body", "[sph]") {
+  Scene scene;
+  scene.planes.push_back(across("floor", 1, 0, 1));
+  Plane& plane = scene.planes.front();
+  Wall wall;
+  wall.plane = 0;
+  CHECK_FALSE(moves(wall, scene));
+  plane.moves = plane.turns = true;
+  plane.point = {1, 2, 0};
+  plane.velocity = plane.velocity_old = {3, 0, 0};
+  plane.spin = plane.spin_old = {0, 0, std::numbers::pi};
+  CHECK(moves(wall, scene));
+  Step step;
+  step.dt = 0.5;  // a quarter of a turn
+  step.dt_old = 0.5;
+  // From (2, 2) to (1, 3), and 1.5 along.
+  const Vec3 v = mean_velocity(wall, scene, {2, 2, 0}, step);
+  CHECK((step.dt * v - Vec3(0.5, 1, 0)).norm() < 1e-15);
+  CHECK((acceleration_at(wall, scene, {2, 2, 0}, step) -
+         Vec3(-std::numbers::pi * std::numbers::pi, 0, 0))
+            .norm() < 1e-12);
+  // The mean of the step before was 1 m/s and pi/2 less.
+  plane.velocity_old = {2, 0, 0};
+  plane.spin_old = {0, 0, std::numbers::pi / 2};
+  CHECK((acceleration_at(wall, scene, {2, 2, 0}, step) -
+         Vec3(2 - std::numbers::pi * std::numbers::pi, std::numbers::pi, 0))
+            .norm() < 1e-12);
 }
