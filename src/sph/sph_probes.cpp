@@ -7,6 +7,7 @@
 #include "scene/surface_data.hpp"
 #include "scene/surface_point.hpp"
 #include "sph/effects.hpp"
+#include "sph/moving_gauges.hpp"
 #include "sph/probe_functions.hpp"
 
 namespace gannet {
@@ -21,11 +22,11 @@ Schema schema() {
                     .text = "the point",
                     .required = true},
                    {.name = "on",
-                    .kind = Kind::reference,
-                    .text = "part of shells that the point moves with, at the place nearest to it; "
-                            "read is the side that `at` lies on, or, for a point on the shell, the "
-                            "one with more water",
-                    .refers_to = "parts"}};
+                    .kind = Kind::text,
+                    .text = "what the point moves with: a part of shells, at the place nearest to "
+                            "it (read is the side that `at` lies on, or, for a point on the shell, "
+                            "the one with more water); a part that is a wall; or a boundary with "
+                            "planes"}};
   Key height{.name = "surface_height",
              .kind = Kind::map,
              .text = "height of the water's surface on a vertical line, from the origin"};
@@ -99,13 +100,28 @@ void add_front(const Keys& gauge, Measure measure, Scene& scene) {
   scene.measures.push_back(std::move(measure));
 }
 
+/// A gauge that sits on a wall or a plane; false where it sits on something else.
+bool add_pressure_on_wall(const Keys& gauge, Measure& measure, Scene& scene) {
+  const MovingGauge* place =
+      gauge_on_wall(measure.name, gauge.word("on"), gauge.vector("at"), scene);
+  if (place == nullptr) return false;
+  measure.sample = [&scene, place](double* value) {
+    *value = pressure_at(scene.store.get<SphState>(), scene, boxes_of(scene), place->x);
+  };
+  scene.measures.push_back(std::move(measure));
+  return true;
+}
+
 /// A gauge that sits on a part.
 void add_pressure_on(const Keys& gauge, Measure measure, Scene& scene) {
+  if (add_pressure_on_wall(gauge, measure, scene)) return;
   const int part = scene.part_number(gauge.word("on"));
   const SurfacePoint point =
       part < 0 ? SurfacePoint{} : nearest_on_part(scene, part, gauge.vector("at"));
   if (point.n == 0) {
-    gauge.complain("on", "'" + gauge.word("on") + "' is not made of shells");
+    gauge.complain("on",
+                   "'" + gauge.word("on") +
+                       "' is neither a part of shells, nor a wall, nor a boundary with planes");
     return;
   }
   const auto& surfaces = scene.store.get<SurfaceData>().of_part;
@@ -154,6 +170,7 @@ void make_state(const Keys& root, Scene& scene) {
 /// Where particles are is found anew at each level that a gauge is read at.
 void add_operations(const Keys&, Scene& scene, Models& models) {
   if (!scene.store.has<ParticleBoxes>()) return;
+  add_gauge_motion(scene, models);
   auto& boxes = scene.store.get<ParticleBoxes>();
   models.of_node(scene.particles.begin)
       .plan.add({.name = "gauges look anew",

@@ -83,7 +83,7 @@ inline const std::vector<std::string> all_terms{"let.dx=a/45",
 
 /// A channel that repeats in x: 60 x 36 particles of water between walls of dummy particles, a
 /// floor that moves, a lid that does not and a wheel that turns.
-inline const std::string channel = R"(gannet: 1
+inline const std::string channel = R"case(gannet: 1
 dimension: 2
 materials: {water: {density: 1000, c0: 30 m/s}}
 parts:
@@ -99,12 +99,17 @@ parts:
     fill: {box: {from: [0.27 m, 0.43 m, 0], to: [0.33 m, 0.49 m, 0]}}
 boundaries:
   sides: {periodic: {x: [0, 0.6 m]}}
-  lid: {plane: {point: [0, 0.55 m, 0], normal: [0, -1, 0]}, walls: dummy, slip: none}
+  lid:
+    plane: {point: [0, 0.55 m, 0], normal: [0, -1, 0]}
+    walls: dummy
+    slip: none
+    motion: {displacement: [0, "-0.01*sin(20*t)", 0], rotation: {axis: [0, 0, 1], centre: [0.3 m, 0.55 m, 0], rate: "0.2*sin(30*t)"}}
+probes: {under_the_lid: {pressure: {at: [0.3 m, 0.55 m, 0], on: lid}}}
 loads: {gravity: [0, -9.81 m/s^2, 0]}
 effects:
   viscosity: {type: monaghan, alpha: 0.1}
   xsph: {epsilon: 0.5}
 output: {until: 10 s, checkpoint: never}
-)";
+)case";
 
 }  // namespace gannet::test

@@ -34,6 +34,36 @@ const char* const piston = R"(  piston:
     wall: {slip: none, velocity: [-1 m/s, 0, 0], factor: [[0, 0], [0.1 s, 1], [0.2 s, 0]]}
 )";
 
+/// A tank of 0.4 x 0.2 m between dummy particles, with a gauge on its left wall near the floor that
+/// goes with it.
+std::string tank(const char* motion, const char* gravity_x) {
+  return fmt::format(R"(gannet: 1
+title: A tank that moves
+dimension: 2
+let: {{dx: 10 mm, A: 30 mm, w: 6 rad/s}}
+materials: {{water: {{card: water, c0: 25 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: dx}}
+    fill: {{box: {{from: [0, 0, 0], to: [0.4 m, 0.2 m, 0]}}}}
+    start: hydrostatic
+boundaries: {{tank: {{planes: {{x: [0, 0.4 m], y: 0}}, walls: dummy{}}}}}
+loads: {{gravity: [{}, -9.81 m/s^2, 0]}}
+effects: {{viscosity: {{type: monaghan, alpha: 0.1}}}}
+probes:
+  side: {{pressure: {{at: [0, 50 mm, 0], on: tank}}}}
+output: {{until: 10 s}}
+)",
+                     motion, gravity_x);
+}
+
+/// What the gauge on the side reads at every step.
+std::vector<std::pair<double, double>> side_pressure(Simulation& s, double until) {
+  std::vector<std::pair<double, double>> out;
+  run_until(s, until, [&] { out.emplace_back(time_of(s), measured(s.scene, "probe.side")); });
+  return out;
+}
+
 /// Of the fluid alone, at entry to a step.
 Total momentum_of_fluid(const Scene& scene) {
   Total p;
@@ -122,4 +152,58 @@ TEST_CASE("physics: the work of a piston is the energy that the water gains", "[
     if (s->scene.particle_part[k] == part) low = std::min(low, x.x());
   });
   CHECK(low == Approx(0.6 + 0.01 - 0.1).epsilon(1e-12));
+}
+
+TEST_CASE("physics: a tank that sways, seen from outside and from within", "[physics]") {
+  const auto outside = make_simulation_of_text(
+      tank(", motion: {displacement: [\"A*(w*t - sin(w*t))\", 0, 0]}", "0"));
+  const auto within = make_simulation_of_text(tank("", "\"-A*w^2*sin(w*t)\""));
+  const auto a = side_pressure(*outside, 1.5);
+  const auto b = side_pressure(*within, 1.5);
+  double sum = 0;
+  double scale = 0;
+  std::size_t k = 0;
+  for (const auto& [t, p] : a) {
+    while (k + 1 < b.size() && b[k].first < t) ++k;
+    sum += (p - b[k].second) * (p - b[k].second);
+    scale += std::pow(b[k].second - 1000 * 9.81 * 0.15, 2);
+  }
+  const double rms = std::sqrt(sum / scale);
+  WARN(
+      fmt::format("pressure on the side: rms of the difference {:.2g} of that of the sloshing; "
+                  "energy error {:.1e}, {:.1e}",
+                  rms, energy_error(*outside), energy_error(*within)));
+  CHECK(scale / static_cast<double>(a.size()) > 100 * 100);
+  CHECK(rms < 0.02);
+  CHECK(energy_error(*outside) < 1e-3);
+}
+
+TEST_CASE("physics: a tank that is turned holds its water level", "[physics]") {
+  const auto s = make_simulation_of_text(
+      tank(", motion: {rotation: {axis: [0, 0, 1], angle: \"min(t, 0.2)*0.5\"}}", "0"));
+  const auto p = side_pressure(*s, 3);
+  double mean = 0;
+  int n = 0;
+  double worst = -1;
+  run_until(*s, 3.5, [&] {
+    mean += measured(s->scene, "probe.side");
+    ++n;
+  });
+  mean /= n;
+  // Turned by 0.1 rad about the corner: the gauge's depth below the surface, which is level at
+  // half a tank's length.
+  const double up = 0.2 / std::cos(0.1) + 0.2 * std::tan(0.1);
+  const double depth = (up - 0.05) * std::cos(0.1);
+  for_particles(s->scene, [&](std::size_t k, const Vec3& x, const Vec3&) {
+    if (!is_fluid(s->scene, static_cast<Index>(k))) return;
+    const Vec3 q = Eigen::AngleAxisd(-0.1, Vec3::UnitZ()) * x;
+    worst = std::max({worst, -q.x(), q.x() - 0.4, -q.y()});
+  });
+  WARN(
+      fmt::format("gauge at rest in a tank turned by 0.1 rad: {:.1f} Pa, {:.1f} Pa by its depth; "
+                  "furthest behind a wall {:.2f} dx; energy error {:.1e}",
+                  mean, 9810 * depth, worst / 0.01, energy_error(*s)));
+  CHECK(mean == Approx(9810 * depth).epsilon(0.02));
+  CHECK(worst < 0);
+  CHECK(energy_error(*s) < 2e-3);
 }
