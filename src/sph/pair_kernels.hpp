@@ -8,17 +8,18 @@ namespace gannet {
 
 /// Terms of the pair passes. Which of them a pass has does not change from pair to pair.
 enum PairTerm : unsigned {
-  rate_term = 1U << 0,              ///< density rate
-  xsph_term = 1U << 1,              ///< mean velocity of the surroundings
-  diffusion_term = 1U << 2,         ///< diffusion of density
-  concentration_term = 1U << 3,     ///< gradient of the particle concentration, div r
-  shepard_term = 1U << 4,           ///< sums of W for renormalised densities
-  rate_correction_term = 1U << 5,   ///< corrected divergence of the velocity
-  force_term = 1U << 6,             ///< pressure
-  viscous_term = 1U << 7,           ///< artificial viscosity
-  laminar_term = 1U << 8,           ///< laminar viscosity
-  tensile_term = 1U << 9,           ///< repulsion against clumping under tension
-  force_correction_term = 1U << 10  ///< corrected gradient of the pressure
+  rate_term = 1U << 0,               ///< density rate
+  xsph_term = 1U << 1,               ///< mean velocity of the surroundings
+  diffusion_term = 1U << 2,          ///< diffusion of density
+  concentration_term = 1U << 3,      ///< gradient of the particle concentration, div r
+  shepard_term = 1U << 4,            ///< sums of W for renormalised densities
+  rate_correction_term = 1U << 5,    ///< corrected divergence of the velocity
+  force_term = 1U << 6,              ///< pressure
+  viscous_term = 1U << 7,            ///< artificial viscosity
+  laminar_term = 1U << 8,            ///< laminar viscosity
+  tensile_term = 1U << 9,            ///< repulsion against clumping under tension
+  force_correction_term = 1U << 10,  ///< corrected gradient of the pressure
+  central_term = 1U << 11            ///< laminar viscosity acts along the line of a pair
 };
 
 /// A particle in 32 bytes, for pairs in single precision: positions and velocities are whole
@@ -54,12 +55,12 @@ struct PairJob {
   double alpha = 0;
   double beta = 0;
   double epsilon = 0;
-  double delta = 0;                   ///< density diffusion [-]
-  double mu = 0;                      ///< laminar viscosity [Pa s]
-  double tensile = 0;                 ///< [-]
-  double inv_W_dx = 0;                ///< 1/W(dx)
-  double* drho_dt = nullptr;          ///< 1 a target, stored
-  double* drho_diffusion = nullptr;   ///< 1, stored: the part of drho_dt that diffusion has
+  double delta = 0;                  ///< density diffusion [-]
+  double mu = 0;                     ///< laminar viscosity, and what the form puts before it [Pa s]
+  double tensile = 0;                ///< [-]
+  double inv_W_dx = 0;               ///< 1/W(dx)
+  double* drho_dt = nullptr;         ///< 1 a target, stored
+  double* drho_diffusion = nullptr;  ///< 1, stored: the part of drho_dt that diffusion has
   double* drho_correction = nullptr;  ///< 1, stored: the part that the correction adds
   double* X = nullptr;                ///< 4 a target, stored
   double* concentration = nullptr;    ///< 4, stored: gradient, div r

@@ -63,7 +63,7 @@ PairJob pair_job(const ClusterList& list, const Packed& packed, const PairParame
   job.beta = parameters.beta;
   job.epsilon = parameters.epsilon;
   job.delta = parameters.delta;
-  job.mu = parameters.mu;
+  job.mu = (parameters.central ? 2.0 * (parameters.dimension + 2) : 2.0) * parameters.mu;
   job.tensile = parameters.tensile;
   job.inv_W_dx = parameters.dx > 0 ? 1.0 / kernel.W(parameters.dx) : 0.0;
   return job;
@@ -106,7 +106,9 @@ void pair_force(const ClusterList& list, const Packed& packed, const PairParamet
   job.f_correction = numbers(out.f_correction);
   job.terms = force_term;
   if (out.f_viscous != nullptr) job.terms |= viscous_term;
-  if (out.f_laminar != nullptr) job.terms |= laminar_term;
+  if (out.f_laminar != nullptr) {
+    job.terms |= laminar_term | (parameters.central ? central_term : 0U);
+  }
   if (out.f_tensile != nullptr) job.terms |= tensile_term;
   if (out.f_correction != nullptr) job.terms |= force_correction_term;
   over_clusters(kernel_for(job, force_term | viscous_term, PairKernel::force_cubic,

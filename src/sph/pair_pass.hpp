@@ -60,11 +60,12 @@ struct PairParameters {
   double beta = 0;     ///< quadratic viscosity [-]
   double epsilon = 0;  ///< XSPH [-]
   KernelType kernel = KernelType::cubic_spline;
-  double rho0 = 1000;  ///< reference density: m/rho0 is the volume of a particle [kg/m^3]
-  double dx = 0;       ///< spacing that W is compared at, for terms that ask for it [m]
-  double delta = 0;    ///< density diffusion [-]
-  double mu = 0;       ///< laminar viscosity [Pa s]
-  double tensile = 0;  ///< repulsion under tension [-]
+  double rho0 = 1000;    ///< reference density: m/rho0 is the volume of a particle [kg/m^3]
+  double dx = 0;         ///< spacing that W is compared at, for terms that ask for it [m]
+  double delta = 0;      ///< density diffusion [-]
+  double mu = 0;         ///< laminar viscosity [Pa s]
+  bool central = false;  ///< which acts along the line of a pair
+  double tensile = 0;    ///< repulsion under tension [-]
 };
 
 /// Results of the rates pass, one entry an owned particle. Terms whose result is null are off.
@@ -125,7 +126,9 @@ void pair_rates(const ClusterList& list, const Packed& packed, const PairParamet
 ///   Pi_ij = (-alpha c0 mu_ij + beta mu_ij^2) / ((rho_i + rho_j)/2)  where v_ij . r_ij < 0, else 0
 ///   mu_ij = h v_ij . r_ij / (r_ij^2 + 0.01 h^2)
 /// Laminar viscosity: f_i += sum_j m^2 2 mu/(rho_i rho_j) r_ij . grad_i W_ij/(r_ij^2 + 0.01 h^2)
-/// v_ij Repulsion under tension: f_i -= tensile m^2 sum_j (t_i + t_j) (W_ij/W(dx))^4 grad_i W_ij,
+/// v_ij, or along the line of the pair, with d the dimension,
+///   f_i += sum_j m^2 2 (d + 2) mu/(rho_i rho_j) v_ij . r_ij/(r_ij^2 + 0.01 h^2) grad_i W_ij
+/// Repulsion under tension: f_i -= tensile m^2 sum_j (t_i + t_j) (W_ij/W(dx))^4 grad_i W_ij,
 ///   t = max(-p/rho^2, 0)
 /// Correction: f_i = -m/rho_i grad p with grad p = -S_i^-1 sum_j (p_j - p_i) F_ij r_ij in place of
 /// the

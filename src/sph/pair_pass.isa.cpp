@@ -198,7 +198,12 @@ GANNET_INLINE void add_forces(const P& pairs, const Constants<V>& k, unsigned te
   }
   if ((allowed & terms & laminar_term) != 0) {
     const V below = (p.r2 + k.eta2) * (pairs.rho(t) * pairs.rho(s));
-    sums.f_laminar.add(p.F * p.r2 * reciprocal(below), p.vx, p.vy, p.vz);
+    const V c = p.F * reciprocal(below);
+    if ((terms & central_term) != 0) {
+      sums.f_laminar.add(c * p.v_r, p.x, p.y, p.z);
+    } else {
+      sums.f_laminar.add(c * p.r2, p.vx, p.vy, p.vz);
+    }
   }
   if ((allowed & terms & tensile_term) != 0) {
     const V tension = positive_part(V(0.0) - pairs.last(t)) + positive_part(V(0.0) - pairs.last(s));
@@ -267,7 +272,8 @@ constexpr unsigned usual_rates = rate_term | xsph_term | diffusion_term;
 constexpr unsigned all_rates =
     usual_rates | concentration_term | shepard_term | rate_correction_term;
 constexpr unsigned usual_force = force_term | viscous_term;
-constexpr unsigned all_force = usual_force | laminar_term | tensile_term | force_correction_term;
+constexpr unsigned all_force =
+    usual_force | laminar_term | central_term | tensile_term | force_correction_term;
 constexpr unsigned fused_terms = rate_term | force_term | viscous_term;
 constexpr double least_double = 1e-20;
 constexpr double least_single = 1e-12;

@@ -53,7 +53,7 @@ struct Sums {
   Vector<V> grad_v[3];      ///< v_a F r
   Vector<V> f;              ///< -(p_i/rho_i^2 + p_j/rho_j^2) F r
   Vector<V> f_viscous;      ///< -Pi F r
-  Vector<V> f_laminar;      ///< F r^2/((r^2 + eta^2) rho_i rho_j) v
+  Vector<V> f_laminar;      ///< F/((r^2 + eta^2) rho_i rho_j) (r^2 v, or v . r r)
   Vector<V> f_tensile;      ///< -R (W/W(dx))^4 F r
   Vector<V> grad_p;         ///< (p_j - p_i) F r
 };
@@ -219,7 +219,7 @@ GANNET_INLINE void put_forces(const PairJob& job, std::int64_t first, int n, con
     put_lines(out + 4 * first, n, whole, scale);
   };
   put(viscous_term, job.f_viscous, sums.f_viscous, m2);
-  put(laminar_term, job.f_laminar, sums.f_laminar, 2.0 * job.mu * m2);
+  put(laminar_term, job.f_laminar, sums.f_laminar, job.mu * m2);
   put(tensile_term, job.f_tensile, sums.f_tensile, job.tensile * m2);
   if ((on & force_correction_term) != 0) {
     const Vector<Vec8> d = force_correction(job, sums, densities(job, first, n));

@@ -104,8 +104,9 @@ void reference_force(const ParticleView& view, Index n_targets, const PairParame
       f -= m2 * (p_rho2(i) + p_rho2(j)) * grad_W;
       const double rho_mean = 0.5 * (view.rho[i] + view.rho[j]);
       f_viscous -= m2 * viscosity(k, r_ij, v_ij, rho_mean) * grad_W;
-      f_laminar += m2 * 2 * k.mu / (view.rho[i] * view.rho[j]) * r_ij.dot(grad_W) /
-                   (r2 + 0.01 * k.h * k.h) * v_ij;
+      const double c = m2 * 2 * k.mu / (view.rho[i] * view.rho[j]) / (r2 + 0.01 * k.h * k.h);
+      f_laminar += k.central ? Vec3(c * (k.dimension + 2) * v_ij.dot(r_ij) * grad_W)
+                             : Vec3(c * r_ij.dot(grad_W) * v_ij);
       if (k.dx > 0) {
         f_tensile -= k.tensile * m2 * (tension(i) + tension(j)) * closeness(k, W) * grad_W;
       }

@@ -83,6 +83,7 @@ PairParameters parameters_of(const SphState& sph) {
           .dx = sph.dx,
           .delta = sph.terms.delta,
           .mu = sph.terms.mu,
+          .central = sph.terms.central,
           .tensile = sph.terms.tensile};
 }
 
@@ -113,7 +114,11 @@ ParticleVote smallest_stable_step(const SphState& sph, const Scene& scene) {
   }
   const double linear = sph.terms.alpha * sph.c0;
   const double quadratic = 2 * sph.terms.beta * mu.value;
-  const Damping damping{linear + quadratic, sph.terms.mu / sph.rho0, sph.terms.delta * sph.c0};
+  const double nu = sph.terms.mu / sph.rho0;
+  const Damping damping = {.slope = linear + quadratic,
+                           .nu = sph.terms.central ? 0 : nu,
+                           .central_nu = sph.terms.central ? nu : 0,
+                           .diffusion = sph.terms.delta * sph.c0};
   return {stable_step(sph.limits, sph.cfl, sph.h, std::sqrt(c2.value),
                       largest_damping(sph.limits, sph.h, damping)),
           quadratic > linear ? mu.particle : c2.particle};

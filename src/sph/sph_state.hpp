@@ -25,6 +25,7 @@ struct PairTerms {
   double epsilon = 0;          ///< XSPH [-]
   double delta = 0;            ///< density diffusion [-]
   double mu = 0;               ///< laminar viscosity [Pa s]
+  bool central = false;        ///< which acts along the line of a pair
   double tensile = 0;          ///< repulsion under tension [-]
   bool corrected = false;      ///< corrected gradients (CSPM)
   bool concentration = false;  ///< gradient of the concentration and div r

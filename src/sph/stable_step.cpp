@@ -49,7 +49,9 @@ LatticeLimits limits_of_wave(const std::vector<Neighbour>& neighbours, double h,
     spreading += 2 * std::abs(n.F) * (1 - std::cos(phase));
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(damping, Eigen::EigenvaluesOnly);
-  return {h * gradient.norm(), h * h * modes.eigenvalues().maxCoeff(), h * h * spreading};
+  return {.sound = h * gradient.norm(),
+          .viscous = h * h * modes.eigenvalues().maxCoeff(),
+          .laminar = h * h * spreading};
 }
 
 }  // namespace
@@ -60,6 +62,7 @@ LatticeLimits lattice_limits(KernelType kernel, int dimension, double ratio) {
   if (dimension == 3) directions.emplace_back(1, 1, 1);
   constexpr int n_waves = 200;
   LatticeLimits limits;
+  limits.dimension = dimension;
   for (const Vec3& d : directions) {
     for (int w = 1; w <= n_waves; ++w) {
       const Vec3 k = d * (std::numbers::pi * w / n_waves);
@@ -78,7 +81,8 @@ double stable_step(const LatticeLimits& limits, double cfl, double h, double c, 
 }
 
 double largest_damping(const LatticeLimits& limits, double h, const Damping& damping) {
-  return limits.viscous * damping.slope / h +
+  const double central = 2 * (limits.dimension + 2) * damping.central_nu;
+  return limits.viscous * (damping.slope / h + central / (h * h)) +
          limits.laminar * (damping.nu / (h * h) + damping.diffusion / h);
 }
 

@@ -9,6 +9,7 @@ namespace gannet {
 struct LatticeLimits {
   double sound = 0;    ///< omega h / c: largest of all sound waves [-]
   double viscous = 0;  ///< lambda h / (alpha c): largest damping rate of the viscosity [-]
+  int dimension = 3;   ///< d
   double laminar = 0;  ///< lambda h^2/nu: largest damping rate of laminar viscosity [-]; that of
                        ///< density diffusion, over delta c/h
 };
@@ -38,13 +39,16 @@ double stable_step(const LatticeLimits& limits, double cfl, double h, double c, 
 
 /// What damps particles, for the stable step.
 struct Damping {
-  double slope = 0;      ///< alpha c + 2 beta |mu|: slope of rho |Pi| over |mu| [m/s]
-  double nu = 0;         ///< laminar kinematic viscosity [m^2/s]
+  double slope = 0;  ///< alpha c + 2 beta |mu|: slope of rho |Pi| over |mu| [m/s]
+  double nu = 0;     ///< laminar kinematic viscosity [m^2/s]
+  double central_nu =
+      0;                 ///< that acts along the line of a pair, 2 (d + 2) times the sum of `slope`
   double diffusion = 0;  ///< delta c0 [m/s]
 };
 
 /// Sum of the largest damping rates [1/s] of a lattice.
-///   lambda = limits.viscous slope/h + limits.laminar (nu/h^2 + diffusion/h)
+///   lambda = limits.viscous (slope/h + 2 (d + 2) central_nu/h^2) + limits.laminar (nu/h^2 +
+///   diffusion/h)
 double largest_damping(const LatticeLimits& limits, double h, const Damping& damping);
 
 }  // namespace gannet

@@ -169,6 +169,7 @@ TEST_CASE("pair passes: every kernel and term as the reference", "[sph]") {
   fluid.k.dx = 0.01;
   fluid.k.delta = 0.1;
   fluid.k.mu = 2;
+  fluid.k.central = GENERATE(false, true);
   fluid.k.tensile = 0.3;
   for (std::size_t i = 0; i < fluid.rho.size(); ++i) fluid.s.push_back(fluid.rho[i] + fluid.x[i].y);
   const Terms terms{true, true, true};

@@ -55,6 +55,28 @@ TEST_CASE("pair passes: momentum and angular momentum are conserved", "[sph]") {
   }
 }
 
+TEST_CASE("pair passes: laminar viscosity along the line of a pair keeps angular momentum",
+          "[sph]") {
+  Fluid fluid = jittered_lattice(11, 10, 13, 1);
+  fluid.k.mu = 2;
+  for (const bool central : {false, true}) {
+    fluid.k.central = central;
+    for (const Isa set : sets_to_test()) {
+      const Results r = vectorised(set, fluid, {true, true, true});
+      Vec3 force = Vec3::Zero();
+      Vec3 moment = Vec3::Zero();
+      double scale = 0;
+      for (Index i = 0; i < fluid.n_targets; ++i) {
+        force += xyz(r.f_laminar[i]);
+        moment += xyz(fluid.x[i]).cross(xyz(r.f_laminar[i]));
+        scale += xyz(r.f_laminar[i]).norm();
+      }
+      CHECK(force.norm() < 1e-14 * scale);
+      CHECK((moment.norm() < 1e-14 * scale * 0.4) == central);
+    }
+  }
+}
+
 TEST_CASE("pair passes: pressure work is what the density rate stores", "[sph]") {
   // sum_i m p_i/rho_i^2 drho_i/dt + sum_i f_i . v_i = 0, f without viscosity: the same pair sums.
   const bool flat = GENERATE(false, true);

@@ -51,3 +51,13 @@ TEST_CASE("lattice limits: a dense lattice is the kernel's transform", "[sph]") 
   const double at_3 = lattice_limits(KernelType::cubic_spline, 3, 2.9).sound;
   CHECK(at_2 == Approx(at_3).epsilon(0.02));
 }
+
+TEST_CASE("damping: along the line of a pair laminar viscosity is 2 (d + 2) artificial ones",
+          "[sph]") {
+  const LatticeLimits limits{.sound = 1, .viscous = 0.6, .dimension = 2, .laminar = 7};
+  CHECK(largest_damping(limits, 0.5, {.nu = 3}) == Approx(7 * 3 / 0.25));
+  CHECK(largest_damping(limits, 0.5, {.central_nu = 3}) == Approx(0.6 * 2 * 4 * 3 / 0.25));
+  // The same as alpha c h = 2 (d + 2) nu.
+  CHECK(largest_damping(limits, 0.5, {.slope = 2 * 4 * 3 / 0.5}) ==
+        Approx(largest_damping(limits, 0.5, {.central_nu = 3})));
+}
