@@ -24,6 +24,13 @@ Vec3 particle(const Scene& scene, Index i) {
   return xyz(scene.nodes.x[static_cast<std::size_t>(scene.particles.begin + i)]);
 }
 
+/// Particles of walls stand behind planes and are pressed together: that is their place.
+bool is_of_wall(const Scene& scene, Index i) {
+  if (scene.particle_part.empty()) return false;
+  return scene.parts[static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(i)])]
+             .kind == "wall";
+}
+
 }  // namespace
 
 double deepest_penetration(Scene& scene) {
@@ -32,6 +39,7 @@ double deepest_penetration(Scene& scene) {
       [&](Index begin, Index end) {
         double worst = -infinity;
         for (Index i = begin; i < end; ++i) {
+          if (is_of_wall(scene, i)) continue;
           worst = std::max(worst, depth_behind(scene, particle(scene, i)));
         }
         return worst;
@@ -70,6 +78,7 @@ Index count_lost(const Scene& scene, const LostLimits& limits) {
   return parallel_sum(scene.particles.size(), node_chunk, Index{0}, [&](Index begin, Index end) {
     Index lost = 0;
     for (Index i = begin; i < end; ++i) {
+      if (is_of_wall(scene, i)) continue;
       const Vec3 x = particle(scene, i);
       const bool inside = (x.array() >= limits.low.array()).all() &&
                           (x.array() <= limits.high.array()).all();  // false for NaN

@@ -50,6 +50,17 @@ TEST_CASE("stray particles: lost behind a wall, far out, or nowhere", "[output]"
   CHECK(count_lost(scene, limits) == 2);
 }
 
+TEST_CASE("stray particles: those of walls stand behind planes", "[output]") {
+  Scene scene = two_in_a_tank();
+  scene.parts = {{.name = "water", .kind = "sph"}, {.name = "floor", .kind = "wall"}};
+  scene.particle_part = {1, 0};
+  const LostLimits limits = lost_limits(scene, 0.1);
+  scene.nodes.x[0].z = -0.5;
+  scene.nodes.x[1].z = 0.2;
+  CHECK(count_lost(scene, limits) == 0);
+  CHECK(deepest_penetration(scene) == Approx(-0.2));
+}
+
 TEST_CASE("stray particles: the worst look stands, and goes into a checkpoint", "[output]") {
   Scene scene = two_in_a_tank();
   scene.store.get<StrayLimits>().lost = lost_limits(scene, 0.1);
