@@ -130,6 +130,9 @@ int check_command(const RunOptions& options) {
   const auto simulation = make_simulation(options.case_file, options.set);
   fmt::print("{}: {}\n", options.case_file, simulation->scene.title);
   print_parts(simulation->scene);
+  for (const std::string& warning : simulation->scene.warnings) {
+    fmt::print("warning: {}\n", warning);
+  }
   evaluate_start(simulation->models);
   print_overlaps(simulation->scene);
   print_steps(simulation->models);

@@ -1,8 +1,5 @@
 #include "app/effects.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <vector>
 
 #include "body/effects.hpp"
@@ -12,7 +9,6 @@
 #include "output/output.hpp"
 #include "scene/draft.hpp"
 #include "sph/effects.hpp"
-#include "sph/sph_state.hpp"
 #include "study/hard_case.hpp"
 #include "study/study_file.hpp"
 #include "time/guards.hpp"
@@ -34,20 +30,6 @@ Schema case_schema() {
           {"parts.*", initial_velocity_key()}};
 }
 
-/// Walls mirror water without being told; the effect itself adds no operation.
-Effect with_presence(Effect effect) {
-  effect.presence = [](const Keys&, Scene& scene) -> Presence {
-    if (scene.particles.empty()) return {Presence::State::off, "no part is made of particles"};
-    const Halo& halo = scene.store.get<SphState>().halo;
-    const auto n = std::count(halo.wall_low.begin(), halo.wall_low.end(), true) +
-                   std::count(halo.wall_high.begin(), halo.wall_high.end(), true);
-    if (n == 0) return {Presence::State::off, "no plane stands across an axis"};
-    return {Presence::State::automatic,
-            fmt::format("rule: {} planes across an axis mirror the water", n)};
-  };
-  return effect;
-}
-
 std::vector<Effect> make_table() {
   return {
       leapfrog_effect(),       // first: clears forces, kicks and drifts
@@ -65,16 +47,16 @@ std::vector<Effect> make_table() {
       free_surface_effect(),
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
-      walls_effect(),          // built around the particles; follows their passes
-      shell_effect(),          //
-      plane_contact_effect(),  //
-      contacts_effect(),       //
-      pressure_effect(),       //
-      nodal_force_effect(),    //
-      periodic_effect(),       // copies out what moved, adds back what ghosts collected
-      with_presence(mirror_walls_effect()),  // images at walls; adds to what planes measure
-      prescribed_motion_effect(),            // after all forces: measures the reactions
-      probes_effect(),                       //
+      walls_effect(),              // built around the particles; follows their passes
+      shell_effect(),              //
+      plane_contact_effect(),      //
+      contacts_effect(),           //
+      pressure_effect(),           //
+      nodal_force_effect(),        //
+      periodic_effect(),           // copies out what moved, adds back what ghosts collected
+      mirror_walls_effect(),       // images at walls; adds to what planes measure
+      prescribed_motion_effect(),  // after all forces: measures the reactions
+      probes_effect(),             //
       wall_force_effect(),
       flow_probes_effect(),
       sph_probes_effect(),  //

@@ -90,9 +90,9 @@ void print_effects(Simulation& simulation, const FirstSteps& first) {
   }
 }
 
-void print_choices(Simulation& simulation) {
+void print_choices(const std::vector<Choice>& choices) {
   fmt::print("chosen automatically, by rules alone; the key in front overrides\n");
-  for (const Choice& c : all_choices(simulation)) {
+  for (const Choice& c : choices) {
     fmt::print("    {} = {}: {}\n", c.key, c.chosen, c.rule);
   }
 }
@@ -112,10 +112,11 @@ void print_defaults(const Value& map) {
 int explain_command(const RunOptions& options) {
   set_threads(options.threads);
   const auto simulation = make_simulation(options.case_file, options.set);
+  const std::vector<Choice> choices = all_choices(*simulation);  // of the start
   const FirstSteps first = make_first_steps(*simulation, 0.5, 3, FirstShares::steps);
   fmt::print("{}\n", simulation->scene.title);
   print_effects(*simulation, first);
-  print_choices(*simulation);
+  print_choices(choices);
   for (const Model& model : simulation->models.list) print_plan(model);
   print_fields(simulation->scene);
   fmt::print("defaults taken\n");

@@ -31,8 +31,11 @@ void add_contacts(const Scene& scene, std::vector<StartOverlap>& list) {
 /// Particles at rest half a spacing before a plane touch it within rounding: not counted.
 void add_planes(Scene& scene, std::vector<StartOverlap>& list) {
   if (!scene.store.has<ParticlesOnPlanes>()) return;
-  const auto& law = scene.store.get<ParticlesOnPlanes>().law;
-  for (const Plane& plane : scene.planes) {
+  const auto& state = scene.store.get<ParticlesOnPlanes>();
+  const auto& law = state.law;
+  for (std::size_t p = 0; p < scene.planes.size(); ++p) {
+    if (state.pushes[p] == 0) continue;
+    const Plane& plane = scene.planes[p];
     StartOverlap o{"plane " + plane.name};
     for (Index k = 0; k < scene.particles.size(); ++k) {
       const auto part = static_cast<std::size_t>(scene.particle_part[static_cast<std::size_t>(k)]);

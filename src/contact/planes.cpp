@@ -19,15 +19,36 @@ constexpr Index particle_chunk = 2048;
 
 double height(const Plane& plane, const Line& x) { return plane.normal.dot(xyz(x) - plane.point); }
 
-/// Distance at which a plane begins to push particles [m]: half of what it is elsewhere where dummy
-/// particles hold them off, so that only what comes too near is pushed twice.
-double distance(const Plane& plane, const PlaneLaw& law) {
-  return plane.behind == Behind::dummy ? 0.5 * law.distance : law.distance;
+Schema schema() {
+  return {{"boundaries.*",
+           {.name = "penalty",
+            .kind = Kind::flag,
+            .text = "whether the planes push particles that come nearer than half a spacing; on "
+                    "unless said"}}};
 }
 
-/// Force of a plane on a particle; zero where it does not touch.
-Vec3 force_on_particle(const Plane& plane, const PlaneLaw& law, const Line& x) {
-  const double p = distance(plane, law) - height(plane, x);
+/// The boundary that a plane belongs to: "basin" of "basin.x_min".
+Keys boundary_of(const Keys& root, const Plane& plane) {
+  return root.map("boundaries").map(plane.name.substr(0, plane.name.find('.')));
+}
+
+bool switched_off(const Keys& root, const Plane& plane) {
+  const Keys boundary = boundary_of(root, plane);
+  return boundary.has("penalty") && !boundary.flag("penalty");
+}
+
+/// Distance at which plane k begins to push particles [m]: half of what it is elsewhere where dummy
+/// particles hold them off, so that only what comes too near is pushed twice; none where it is
+/// switched off.
+double distance(const Scene& scene, const ParticlesOnPlanes& state, std::size_t k,
+                const PlaneLaw& law) {
+  if (state.pushes[k] == 0) return -std::numeric_limits<double>::infinity();
+  return scene.planes[k].behind == Behind::dummy ? 0.5 * law.distance : law.distance;
+}
+
+/// Force of a plane on a particle nearer than d [m]; zero where it does not touch.
+Vec3 force_on_particle(const Plane& plane, const PlaneLaw& law, double d, const Line& x) {
+  const double p = d - height(plane, x);
   return p > 0 ? Vec3(plane.normal * (law.rate2 * x.w * p)) : Vec3(Vec3::Zero());
 }
 
@@ -52,7 +73,9 @@ void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
 /// A particle that starts behind a wall would be shot out of it: a mistake in the case.
 void complain_of_particles_behind(const Keys& root, const Scene& scene,
                                   const ParticlesOnPlanes& state) {
-  for (const Plane& plane : scene.planes) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    if (state.pushes[k] == 0 && plane.behind == Behind::nothing) continue;
     Index n = 0;
     Index part = 0;
     for (Index i = 0; i < scene.particles.size(); ++i) {
@@ -126,18 +149,53 @@ void add_look(Scene& scene, ParticlesOnPlanes& state, Model& model, Ledger& ledg
   model.plan.add(std::move(look));
 }
 
+/// Which planes push; warns where a boundary is left with nothing that stops particles.
+void set_switches(const Keys& root, Scene& scene, ParticlesOnPlanes& state) {
+  std::string last;
+  for (const Plane& plane : scene.planes) {
+    const bool off = switched_off(root, plane);
+    state.pushes.push_back(off ? 0 : 1);
+    const Keys boundary = boundary_of(root, plane);
+    if (!off || boundary.path() == last) continue;
+    last = boundary.path();
+    const std::string place = boundary.where("penalty").text() + ": " + last + ".penalty: off";
+    scene.warnings.push_back(
+        plane.behind == Behind::nothing
+            ? place + ": nothing is left that stops particles at its planes"
+            : place + ": particles that come through the " +
+                  (plane.behind == Behind::dummy ? "dummy particles" : "mirror") +
+                  " are not pushed back, and planes that lean or turn stop nothing");
+  }
+}
+
+/// The switch of planes means nothing where there are none.
+void complain_of_switch_without_planes(const Keys& root) {
+  if (!root.has("boundaries")) return;
+  const Keys boundaries = root.map("boundaries");
+  for (const std::string& name : boundaries.names()) {
+    const Keys boundary = boundaries.map(name);
+    if (!boundary.has("penalty") || boundary.has("planes") || boundary.has("plane")) continue;
+    boundary.complain("penalty", "says how planes act; there is no 'planes' or 'plane' here");
+  }
+}
+
 void operations(const Keys& root, Scene& scene, Models& models) {
+  complain_of_switch_without_planes(root);
   if (scene.planes.empty() || scene.particles.empty()) return;
   auto& state = scene.store.get<ParticlesOnPlanes>();
   set_laws(scene, state);
+  set_switches(root, scene, state);
   complain_of_particles_behind(root, scene, state);
   size_state(scene, state);
   add_measures(scene, state);
+  const auto n_pushing = std::ranges::count(state.pushes, 1);
+  if (n_pushing == 0) return;
+  const auto first = std::ranges::find(state.pushes, 1) - state.pushes.begin();
   Model& model = models.of_node(scene.particles.begin);
   Operation op;
   op.name = "contact: particles and planes";
-  op.reason = fmt::format("rule: {} rigid planes stop every particle, the first {}",
-                          scene.planes.size(), asked_for_at(scene.planes[0].where));
+  op.reason = fmt::format("rule: {} rigid planes stop every particle, the first {}", n_pushing,
+                          asked_for_at(scene.planes[static_cast<std::size_t>(first)].where));
   op.stage = Stage::force;
   op.reads = {"x"};
   op.writes = {"f"};
@@ -148,6 +206,47 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   op.limited_by = [] { return std::string("contact of particles and planes"); };
   model.plan.add(std::move(op));
   add_look(scene, state, model, models.ledger);
+}
+
+/// The first boundary of planes that says `penalty`; with the value.
+std::string said_at(const Keys& root, const Scene& scene, bool value) {
+  for (const Plane& plane : scene.planes) {
+    const Keys boundary = boundary_of(root, plane);
+    if (!boundary.given("penalty") || boundary.flag("penalty") != value) continue;
+    return fmt::format("{}.penalty: {} at {}", boundary.path(), value ? "on" : "off",
+                       boundary.where("penalty").text());
+  }
+  return "";
+}
+
+Presence presence(const Keys& root, Scene& scene) {
+  using State = Presence::State;
+  if (scene.particles.empty()) return {State::off, "no part is made of particles"};
+  if (scene.planes.empty()) return {State::off, "no boundary has planes"};
+  const auto& pushes = scene.store.get<ParticlesOnPlanes>().pushes;
+  const auto n = std::ranges::count(pushes, 1);
+  if (n == 0) return {State::off, said_at(root, scene, false)};
+  const std::string asked = said_at(root, scene, true);
+  if (!asked.empty()) return {State::on, asked};
+  return {
+      State::automatic,
+      fmt::format(
+          "rule: {} rigid planes stop every particle, the first {}", n,
+          asked_for_at(
+              scene.planes[static_cast<std::size_t>(std::ranges::find(pushes, 1) - pushes.begin())]
+                  .where))};
+}
+
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  if (scene.particles.empty()) return list;
+  for (const Plane& plane : scene.planes) {
+    const Keys boundary = boundary_of(root, plane);
+    const std::string key = boundary.path() + ".penalty";
+    if (boundary.given("penalty") || (!list.empty() && list.back().key == key)) continue;
+    list.push_back({key, "on", "every plane pushes particles nearer than half a spacing"});
+  }
+  return list;
 }
 
 }  // namespace
@@ -169,8 +268,9 @@ void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
       if (!(law.distance > 0)) continue;  // the particles of a wall
       bool touches = false;
       for (std::size_t k = 0; k < n_planes; ++k) {
-        if (height(scene.planes[k], nodes.x[node]) >= distance(scene.planes[k], law)) continue;
-        const Vec3 f = force_on_particle(scene.planes[k], law, nodes.x[node]);
+        const double d = distance(scene, state, k, law);
+        if (height(scene.planes[k], nodes.x[node]) >= d) continue;
+        const Vec3 f = force_on_particle(scene.planes[k], law, d, nodes.x[node]);
         add_xyz(nodes.f[node], f);
         sums[k].force -= f;
         touches = true;
@@ -196,7 +296,8 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
       const Line& x = scene.nodes.x[static_cast<std::size_t>(node)];
       for (std::size_t k = 0; k < n_planes; ++k) {
         const Plane& plane = scene.planes[k];
-        const Vec3 f = force_on_particle(plane, state.law[part], x);
+        const PlaneLaw& law = state.law[part];
+        const Vec3 f = force_on_particle(plane, law, distance(scene, state, k, law), x);
         sums[k].work += work_along(path, f);
         if (plane.moves) sums[k].put_in += work_along(path_of_plane(plane, xyz(x), step), f);
       }
@@ -257,6 +358,12 @@ void follow_planes(const Scene& scene, NodesOnPlanes& state) {
   }
 }
 
-Effect plane_contact_effect() { return {.name = "contact with planes", .operations = operations}; }
+Effect plane_contact_effect() {
+  return {.name = "contact with planes",
+          .schema = schema,
+          .operations = operations,
+          .presence = presence,
+          .choices = choices};
+}
 
 }  // namespace gannet

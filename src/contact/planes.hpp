@@ -33,6 +33,7 @@ struct PlaneLaw {
 /// All particles against all planes.
 struct ParticlesOnPlanes {
   std::vector<PlaneLaw> law;      ///< per part
+  std::vector<char> pushes;       ///< per plane: 0 where the case has its penalty switched off
   std::vector<PlaneSums> sums;    ///< per plane
   std::vector<PlaneSums> chunks;  ///< work space
   /// Particles that touched a plane in the last force stage; chunk c of the loop writes its own

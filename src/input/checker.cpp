@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <set>
 
@@ -137,8 +138,27 @@ void add_missing(const TextNode& node, const Key& map, Value& value, CheckContex
   }
 }
 
+/// `guards: off` for a map that has the switch `active`: {active: off}.
+bool is_switch(const TextNode& node, const Key& map) {
+  static const std::array<std::string, 6> words{"on", "off", "yes", "no", "true", "false"};
+  const Key* active = find_key(map, "active");
+  return node.form == TextNode::Form::scalar && active != nullptr && active->name == "active" &&
+         std::find(words.begin(), words.end(), node.text) != words.end();
+}
+
+TextNode map_of_switch(const TextNode& node) {
+  TextNode map = node;
+  TextNode item = node;
+  item.key = "active";
+  item.key_where = node.where;
+  map.form = TextNode::Form::map;
+  map.items = {item};
+  return map;
+}
+
 Value check_map(const TextNode& node, const Key& key, const std::string& path,
                 CheckContext& context) {
+  if (is_switch(node, key)) return check_map(map_of_switch(node), key, path, context);
   Value value = start_value(node, key, path);
   if (node.form == TextNode::Form::scalar || node.form == TextNode::Form::list) {
     const std::string found = node.form == TextNode::Form::list

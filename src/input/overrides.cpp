@@ -61,6 +61,8 @@ TextNode* step_into(TextNode& map, const Key* key, const std::string& name, cons
 bool switch_map(TextNode& root, const std::vector<std::string>& path, const Key* key,
                 const std::string& value) {
   if (key == nullptr || key->kind != Kind::map || path.size() < 2) return false;
+  const Key* active = find_key(*key, "active");
+  if (active != nullptr && active->name == "active") return false;  // written as in the file
   if (value == "on") return true;
   if (value != "off") return false;
   TextNode* parent = find_at(root, {path.begin(), path.end() - 1});

@@ -183,10 +183,64 @@ void add_operations(const Keys&, Scene& scene, Models& models) {
   if (!sph.halo.moving.empty()) add_moving_walls(sph, scene, models);
 }
 
+/// The boundary that a plane belongs to: "basin" of "basin.x_min".
+Keys boundary_of(const Keys& root, const Plane& plane) {
+  return root.map("boundaries").map(plane.name.substr(0, plane.name.find('.')));
+}
+
+bool stands_across_an_axis(const Plane& plane, const Scene& scene) {
+  Plane mirror = plane;
+  mirror.behind = Behind::mirror;
+  return axis_of(mirror, scene) >= 0;
+}
+
+/// Automatic where no boundary says `walls`.
+Presence presence(const Keys& root, Scene& scene) {
+  using State = Presence::State;
+  if (scene.particles.empty()) return {State::off, "no part is made of particles"};
+  const Halo& halo = scene.store.get<SphState>().halo;
+  std::size_t n = 0;
+  std::string asked;
+  std::string refused;
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    const Keys boundary = boundary_of(root, plane);
+    const bool mirrors = mirrored_at(halo, scene, k).has_value();
+    if (mirrors) ++n;
+    if (!boundary.given("walls") || !stands_across_an_axis(plane, scene)) continue;
+    std::string& place = mirrors ? asked : refused;
+    if (place.empty()) {
+      place = fmt::format("{}.walls: {} at {}", boundary.path(), boundary.word("walls"),
+                          boundary.where("walls").text());
+    }
+  }
+  if (n == 0) return {State::off, refused.empty() ? "no plane stands across an axis" : refused};
+  if (!asked.empty()) return {State::on, asked};
+  return {State::automatic, fmt::format("rule: {} planes across an axis mirror the water", n)};
+}
+
+/// What stands behind planes, where the boundary does not say.
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  if (scene.particles.empty()) return list;
+  for (const Plane& plane : scene.planes) {
+    const Keys boundary = boundary_of(root, plane);
+    const std::string key = boundary.path() + ".walls";
+    if (boundary.given("walls") || !stands_across_an_axis(plane, scene)) continue;
+    if (!list.empty() && list.back().key == key) continue;
+    list.push_back({key, "mirror", "planes across an axis mirror the water (or: dummy, contact)"});
+  }
+  return list;
+}
+
 }  // namespace
 
 Effect mirror_walls_effect() {
-  return {.name = "mirror_walls", .state = make_state, .operations = add_operations};
+  return {.name = "mirror_walls",
+          .state = make_state,
+          .operations = add_operations,
+          .presence = presence,
+          .choices = choices};
 }
 
 }  // namespace gannet

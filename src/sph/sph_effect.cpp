@@ -50,7 +50,11 @@ Schema schema() {
               {.name = "skin",
                .text = "how much further than 2 h neighbour lists reach, over spacing",
                .fallback = "0.26",
-               .limits = between(0.02, 2)}};
+               .limits = between(0.02, 2)},
+              {.name = "sound_speed_check",
+               .kind = Kind::flag,
+               .text = "whether to warn where the flow becomes too fast for the speed of sound",
+               .fallback = "on"}};
   const Key start{.name = "start",
                   .kind = Kind::choice,
                   .text = "pressure at the start: p0 everywhere, or p0 + density g depth",
@@ -102,6 +106,15 @@ void require_same(const std::vector<Keys>& parts) {
       part.map("sph").complain(key, fmt::format("differs from {} of '{}': one pool has one {}",
                                                 first, parts.front().name(), key));
     }
+  }
+  for (const Keys& part : parts) {
+    if (part.map("sph").flag("sound_speed_check") ==
+        parts.front().map("sph").flag("sound_speed_check")) {
+      continue;
+    }
+    part.map("sph").complain(
+        "sound_speed_check",
+        fmt::format("differs from '{}': one pool is watched or it is not", parts.front().name()));
   }
 }
 
@@ -267,7 +280,30 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
   const std::vector<Keys> parts = sph_parts(root);
   if (parts.empty() || scene.particles.empty()) return;
   add_particle_operations(scene.store.get<SphState>(), scene, models,
-                          asked_for_at(parts.front().where("sph")));
+                          asked_for_at(parts.front().where("sph")),
+                          parts.front().map("sph").flag("sound_speed_check"));
+}
+
+/// Smoothing length and free surfaces, where the case leaves them open.
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  const std::vector<Keys> parts = sph_parts(root);
+  if (parts.empty() || scene.particles.empty()) return list;
+  const auto& sph = scene.store.get<SphState>();
+  for (const Keys& part : parts) {
+    const Keys keys = part.map("sph");
+    if (!keys.has("smoothing_ratio")) {
+      list.push_back({keys.path() + ".smoothing_ratio", fmt::format("{:.4g}", sph.h / sph.dx),
+                      fmt::format("the usual h over spacing of {} in {} dimensions",
+                                  keys.word("kernel"), scene.dimension)});
+    }
+    const bool hydrostatic = part.has("start") && part.word("start") == "hydrostatic";
+    if (!hydrostatic || part.has("surface")) continue;
+    const double top = highest(scene, upwards(scene), scene.part_number(part.name()));
+    list.push_back({part.path() + ".surface", fmt::format("{:.4g} m", top + 0.5 * sph.dx),
+                    "half a spacing above the highest particle of the part"});
+  }
+  return list;
 }
 
 }  // namespace
@@ -277,7 +313,8 @@ Effect sph_effect() {
           .schema = schema,
           .parts = add_parts,
           .state = make_state,
-          .operations = add_operations};
+          .operations = add_operations,
+          .choices = choices};
 }
 
 }  // namespace gannet

@@ -154,7 +154,8 @@ void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
             .run = [&](const Step& step) { advance_density(sph, scene, step.dt); }});
 }
 
-void add_look(SphState& sph, Scene& scene, Models& models, const std::string& reason) {
+void add_look(SphState& sph, Scene& scene, Models& models, const std::string& reason,
+              bool watch_sound_speed) {
   Plan& plan = models.of_node(scene.particles.begin).plan;
   std::vector<LedgerEntry*> entries;
   for (const int part : sph.parts) {
@@ -169,17 +170,19 @@ void add_look(SphState& sph, Scene& scene, Models& models, const std::string& re
                 entries[k]->value = internal_energy_of_part(sph, scene, sph.parts[k]);
               }
             }});
-  plan.add({.name = "check of the speed of sound",
-            .reason = "rule: every 100 steps, until it warns",
-            .stage = Stage::look,
-            .reads = {"v", "rho"},
-            .run = [&](const Step& step) {
-              if (sph.warned || step.n % 100 != 0) return;
-              const std::string warning = sound_speed_warning(sph, scene, step.dt);
-              if (warning.empty()) return;
-              scene.warnings.push_back(fmt::format("t = {:.6g} s: {}", step.t, warning));
-              sph.warned = true;
-            }});
+  if (!watch_sound_speed) return;
+  plan.add(
+      {.name = "check of the speed of sound",
+       .reason = "rule: every 100 steps, until it warns; sph.sound_speed_check: off takes it out",
+       .stage = Stage::look,
+       .reads = {"v", "rho"},
+       .run = [&](const Step& step) {
+         if (sph.warned || step.n % 100 != 0) return;
+         const std::string warning = sound_speed_warning(sph, scene, step.dt);
+         if (warning.empty()) return;
+         scene.warnings.push_back(fmt::format("t = {:.6g} s: {}", step.t, warning));
+         sph.warned = true;
+       }});
 }
 
 }  // namespace
@@ -189,13 +192,13 @@ void sum_shepard(SphState& sph, const Scene& scene, double* sum_mW, double* sum_
   pair_rates(sph.list, sph.packed, parameters_of(sph), {.sum_mW = sum_mW, .sum_VW = sum_VW});
 }
 
-void add_particle_operations(SphState& sph, Scene& scene, Models& models,
-                             const std::string& reason) {
+void add_particle_operations(SphState& sph, Scene& scene, Models& models, const std::string& reason,
+                             bool watch_sound_speed) {
   Plan& plan = models.of_node(scene.particles.begin).plan;
   // The first force pass needs lists: all states are there by now, so sorting permutes them all.
   rebuild_lists(sph, scene);
   add_force(sph, scene, plan, reason);
-  add_look(sph, scene, models, reason);
+  add_look(sph, scene, models, reason, watch_sound_speed);
   add_lists(sph, scene, plan);
   add_rates(sph, scene, plan, reason);
 }

@@ -12,9 +12,10 @@ namespace gannet {
 
 /// Adds the operations of all particles to their model's plan, and makes the first lists. Which
 /// terms the pair passes have is known by now: sph.terms, and which arrays of results there are.
-/// reason: where the case asks for particles.
-void add_particle_operations(SphState& sph, Scene& scene, Models& models,
-                             const std::string& reason);
+/// reason: where the case asks for particles. watch_sound_speed: whether the flow is held against
+/// the speed of sound.
+void add_particle_operations(SphState& sph, Scene& scene, Models& models, const std::string& reason,
+                             bool watch_sound_speed);
 
 /// Packs particles and ghosts, with their pressures, for pair_force.
 void pack_for_force(SphState& sph, const Scene& scene);

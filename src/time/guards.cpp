@@ -12,7 +12,12 @@ namespace {
 
 Schema guards_schema() {
   Key guards{.name = "guards", .kind = Kind::map, .text = "limits at which a run is stopped"};
-  guards.keys = {{.name = "energy_error",
+  guards.keys = {{.name = "active",
+                  .kind = Kind::flag,
+                  .text = "whether a run that goes wrong is stopped at all; `guards: off` says the "
+                          "same",
+                  .fallback = "on"},
+                 {.name = "energy_error",
                   .text = "largest energy imbalance over the sizes of all energies together",
                   .fallback = "20 %",
                   .limits = positive()},
@@ -40,6 +45,14 @@ GuardLimits read_limits(const Keys& root) {
   limits.largest_speed = keys.number_or("largest_speed", limits.largest_speed);
   limits.density_range = keys.number_or("density_range", limits.density_range);
   return limits;
+}
+
+/// The map of the case that says something of guards; an empty one where none does.
+Keys guard_keys(const Keys& root) { return root.map("effects").map("guards"); }
+
+bool switched_off(const Keys& root) {
+  const Keys keys = guard_keys(root);
+  return keys.has("active") && !keys.flag("active");
 }
 
 std::string place_of(const Scene& scene, Index i) {
@@ -165,7 +178,7 @@ void guards_state(const Keys& root, Scene& scene) {
   scene.after_restart.push_back([&state] { load(state); });
 }
 
-void guards_operations(const Keys& /*root*/, Scene& scene, Models& models) {
+void guards_operations(const Keys& root, Scene& scene, Models& models) {
   GuardState& state = scene.store.get<GuardState>();
   const Ledger& ledger = models.ledger;
   Model& model = models.list.back();
@@ -179,8 +192,14 @@ void guards_operations(const Keys& /*root*/, Scene& scene, Models& models) {
                     state.balance.update(ledger);
                     save(state);
                   }});
+  if (switched_off(root)) {
+    scene.warnings.push_back(guard_keys(root).where("active").text() +
+                             ": effects.guards.active: off: nothing stops a run whose motion, "
+                             "density, energy or time step goes wrong");
+    return;
+  }
   model.plan.add({.name = "guards",
-                  .reason = "always there: stops a run that goes wrong",
+                  .reason = "rule: stops a run that goes wrong",
                   .stage = Stage::look,
                   .reads = {"x", "v", "rho", "ledger"},
                   .run = [&scene, &state, &models](const Step& s) {
@@ -192,13 +211,32 @@ void guards_operations(const Keys& /*root*/, Scene& scene, Models& models) {
                   }});
 }
 
+Presence guards_presence(const Keys& root, Scene&) {
+  using State = Presence::State;
+  const Keys keys = guard_keys(root);
+  const std::string place = keys.path() + " at " + keys.where().text();
+  if (switched_off(root)) {
+    return {State::off, keys.path() + ".active: off at " + keys.where("active").text()};
+  }
+  if (root.map("effects").given("guards")) return {State::on, place};
+  return {State::automatic, "rule: a run that goes wrong is stopped"};
+}
+
+std::vector<Choice> guards_choices(const Keys& root, Scene&) {
+  if (guard_keys(root).given("active")) return {};
+  return {{"effects.guards.active", "on",
+           "motion, density, energy and time step of every run are watched"}};
+}
+
 }  // namespace
 
 Effect guards_effect() {
   return {.name = "guards",
           .schema = guards_schema,
           .state = guards_state,
-          .operations = guards_operations};
+          .operations = guards_operations,
+          .presence = guards_presence,
+          .choices = guards_choices};
 }
 
 }  // namespace gannet

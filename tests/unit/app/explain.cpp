@@ -110,6 +110,122 @@ TEST_CASE("explain: what the case leaves open is named with its value, rule and 
   CHECK(value(drop, "output.vtk") == "");
 }
 
+namespace {
+
+const std::string tank = R"(gannet: 1
+let: {dx: 10 mm}
+materials: {water: {card: water, c0: 20 m/s}}
+parts: {pool: {sph: {material: water, spacing: dx}, fill: {box: {from: [0, 0, 0], to: [40 mm, 40 mm, 40 mm]}}}}
+output: {until: 1 ms, vtk: never, history: never, checkpoint: never}
+)";
+
+std::string with_basin(const std::string& more) {
+  return tank + "boundaries: {basin: {planes: {z: 0, x: [0, 40 mm]}" + more + "}}\n";
+}
+
+bool has_operation(const Simulation& simulation, const std::string& name) {
+  for (int s = 0; s < n_stages; ++s) {
+    for (const Operation& op : simulation.models.list.front().plan.at(static_cast<Stage>(s))) {
+      if (op.name == name) return true;
+    }
+  }
+  return false;
+}
+
+bool has_choice(Simulation& simulation, const std::string& key) {
+  const std::vector<Choice> all = all_choices(simulation);
+  return std::any_of(all.begin(), all.end(), [&](const Choice& c) { return c.key == key; });
+}
+
+}  // namespace
+
+TEST_CASE("automatic: mirrors and penalty of planes name their keys, and follow them", "[app]") {
+  const auto plain = make_simulation_of_text(with_basin(""));
+  CHECK(presence(*plain, "mirror_walls").state == State::automatic);
+  CHECK(presence(*plain, "contact with planes").state == State::automatic);
+  CHECK(has_choice(*plain, "boundaries.basin.walls"));
+  CHECK(has_choice(*plain, "boundaries.basin.penalty"));
+  CHECK(plain->scene.warnings.empty());
+
+  const auto asked = make_simulation_of_text(with_basin(", walls: mirror, penalty: on"));
+  CHECK(presence(*asked, "mirror_walls").state == State::on);
+  CHECK(presence(*asked, "mirror_walls").why == "boundaries.basin.walls: mirror at case.yaml:6:60");
+  CHECK(presence(*asked, "contact with planes").state == State::on);
+  CHECK(!has_choice(*asked, "boundaries.basin.walls"));
+  CHECK(!has_choice(*asked, "boundaries.basin.penalty"));
+
+  const auto off = make_simulation_of_text(with_basin(", walls: contact, penalty: off"));
+  CHECK(presence(*off, "mirror_walls").state == State::off);
+  CHECK(presence(*off, "mirror_walls").why == "boundaries.basin.walls: contact at case.yaml:6:60");
+  CHECK(presence(*off, "contact with planes").state == State::off);
+  CHECK(presence(*off, "contact with planes").why ==
+        "boundaries.basin.penalty: off at case.yaml:6:78");
+  CHECK(has_operation(*plain, "contact: particles and planes"));
+  CHECK(!has_operation(*off, "contact: particles and planes"));
+  CHECK(!has_operation(*off, "contact: work at planes"));
+  REQUIRE(off->scene.warnings.size() == 1);
+  CHECK(off->scene.warnings[0] ==
+        "case.yaml:6:78: boundaries.basin.penalty: off: nothing is left that stops particles at "
+        "its planes");
+}
+
+TEST_CASE("automatic: a plane without penalty lets water through, its neighbour does not",
+          "[app]") {
+  // Water falls through the floor at 1 m/s and is held by the other boundary's wall.
+  const std::string more =
+      "loads: {gravity: [0, 0, -100 m/s^2]}\n"
+      "boundaries: {floor: {planes: {z: 0}, walls: contact";
+  const auto lowest = [&](const std::string& penalty) {
+    const auto s = make_simulation_of_text(tank + more + penalty +
+                                           "}, side: {planes: {x: 0}, walls: contact}}\n");
+    Model& model = s->models.list.front();
+    evaluate_start(s->models);
+    while (model.step.t < 0.02) advance(s->models);
+    Vec3 low = Vec3::Constant(1);
+    for (Index i = s->scene.particles.begin; i < s->scene.particles.end; ++i) {
+      low = low.cwiseMin(xyz(s->scene.nodes.x[static_cast<std::size_t>(i)]));
+    }
+    return low;
+  };
+  CHECK(lowest("").z() > 0);
+  const Vec3 through = lowest(", penalty: off");
+  CHECK(through.z() == Approx(0.005 - 0.5 * 100 * 0.02 * 0.02).margin(0.003));
+  CHECK(through.x() > 0);
+}
+
+TEST_CASE("automatic: guards and the check of the speed of sound can be switched off", "[app]") {
+  const auto plain = make_simulation_of_text(tank);
+  CHECK(has_choice(*plain, "effects.guards.active"));
+  CHECK(has_operation(*plain, "guards"));
+  CHECK(has_operation(*plain, "check of the speed of sound"));
+  const auto off = make_simulation_of_text(tank + "effects: {guards: off}\n");
+  CHECK(presence(*off, "guards").state == State::off);
+  CHECK(presence(*off, "guards").why == "effects.guards.active: off at case.yaml:6:19");
+  CHECK(!has_operation(*off, "guards"));
+  CHECK(has_operation(*off, "energy balance"));
+  REQUIRE(off->scene.warnings.size() == 1);
+  CHECK(off->scene.warnings[0].starts_with("case.yaml:6:19: effects.guards.active: off: nothing"));
+  const auto set =
+      make_simulation_of_text(tank, {"effects.guards=off", "parts.pool.sph.sound_speed_check=off"});
+  CHECK(presence(*set, "guards").state == State::off);
+  CHECK(!has_operation(*set, "check of the speed of sound"));
+  const auto limits = make_simulation_of_text(tank + "effects: {guards: {density_range: 1}}\n");
+  CHECK(presence(*limits, "guards").state == State::on);
+}
+
+TEST_CASE("automatic: smoothing length and free surface are named with their values", "[app]") {
+  const auto s = make_simulation_of_text(tank + "loads: {gravity: [0, 0, -9.81 m/s^2]}\n",
+                                         {"parts.pool.start=hydrostatic"});
+  const auto value = [&](const std::string& key) -> std::string {
+    for (const Choice& c : all_choices(*s)) {
+      if (c.key == key) return c.chosen;
+    }
+    return "";
+  };
+  CHECK(value("parts.pool.sph.smoothing_ratio") == "1.3");
+  CHECK(value("parts.pool.surface") == "0.04 m");
+}
+
 TEST_CASE("effects.csv: shares of operations, sums of effects, prices of pair terms", "[app]") {
   const auto simulation = make_simulation_of_text(drop + "effects: {xsph: {epsilon: 0.5}}\n");
   FirstShares first;
