@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "sph/neighbour_lists.hpp"
 #include "sph/pair_pass.hpp"
+#include "sph/stable_step.hpp"
 
 namespace gannet {
 
@@ -63,6 +68,17 @@ struct Terms {
   std::vector<std::string> writes;
 };
 
+/// stable_step() of particle k alone, with its own speed of sound and rate of compression.
+double stable_step_of(const SphState& sph, const Scene& scene, Index k) {
+  const Murnaghan& eos = eos_of(sph, scene, k);
+  const double c2 = eos.gamma * (sph.p[k] - eos.p0 + eos.B) / sph.rho[k];
+  const double mu = sph.h * std::max(sph.drho_dt[k] / sph.rho[k], 0.0);
+  const Damping damping{sph.terms.alpha * sph.c0 + 2 * sph.terms.beta * mu, sph.terms.mu / sph.rho0,
+                        sph.terms.delta * sph.c0};
+  return stable_step(sph.limits, sph.cfl, sph.h, std::sqrt(c2),
+                     largest_damping(sph.limits, sph.h, damping));
+}
+
 Terms terms_on(std::initializer_list<Term> all) {
   Terms terms;
   for (const Term& term : all) {
@@ -71,6 +87,31 @@ Terms terms_on(std::initializer_list<Term> all) {
     terms.writes.emplace_back(term.writes);
   }
   return terms;
+}
+
+/// The n smallest steps that particles allow, each with its own speed of sound and compression; of
+/// equal ones the smaller id first. The vote takes the extremes of both over all particles, and so
+/// is at most the first of them.
+std::vector<Vote> smallest_votes(const SphState& sph, const Scene& scene, std::size_t n) {
+  struct One {
+    double dt;
+    std::int64_t id;
+    Index k;
+  };
+  std::vector<One> all;
+  for (Index k = 0; k < scene.particles.size(); ++k) {
+    const auto i = static_cast<std::size_t>(scene.particles.begin + k);
+    all.push_back({stable_step_of(sph, scene, k), static_cast<std::int64_t>(scene.nodes.id[i]), k});
+  }
+  const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(n, all.size()));
+  std::partial_sort(all.begin(), end, all.end(), [](const One& a, const One& b) {
+    return std::tie(a.dt, a.id) < std::tie(b.dt, b.id);
+  });
+  std::vector<Vote> votes;
+  for (auto one = all.begin(); one != end; ++one) {
+    votes.push_back({one->dt, text_of_particle(scene, one->k)});
+  }
+  return votes;
 }
 
 void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {
@@ -100,7 +141,8 @@ void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
                   sph.vote = smallest_stable_step(sph, scene);
                   return sph.vote.dt;
                 },
-            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); }});
+            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); },
+            .smallest = [&](std::size_t n) { return smallest_votes(sph, scene, n); }});
 }
 
 void add_lists(SphState& sph, Scene& scene, Plan& plan) {

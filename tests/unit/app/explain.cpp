@@ -14,6 +14,7 @@
 #include "app/penetrations.hpp"
 #include "app/run_time.hpp"
 #include "output/run_record.hpp"
+#include "sph/sph_state.hpp"
 #include "time/step.hpp"
 
 using namespace gannet;
@@ -224,6 +225,32 @@ TEST_CASE("automatic: smoothing length and free surface are named with their val
   };
   CHECK(value("parts.pool.sph.smoothing_ratio") == "1.3");
   CHECK(value("parts.pool.surface") == "0.04 m");
+}
+
+TEST_CASE("check: the particles that allow the smallest steps are named one by one", "[app]") {
+  const auto s = make_simulation_of_text(tank + "effects: {viscosity: {alpha: 0.1, beta: 2}}\n");
+  evaluate_start(s->models);
+  auto& sph = s->scene.store.get<SphState>();
+  // c^2 = gamma (p - p0 + B)/rho: of 64 particles, three get less and less pressure.
+  const double B = sph.eos[0].B;
+  sph.p[7] = 3 * B;
+  sph.p[60] = 2 * B;
+  sph.p[31] = B;
+  std::fill(sph.drho_dt.begin(), sph.drho_dt.end(), 0);
+  for (const Operation& op : s->models.list.front().plan.at(Stage::force)) {
+    if (op.name.find("particle pair pass") == std::string::npos) continue;
+    const std::vector<Vote> votes = op.smallest(3);
+    REQUIRE(votes.size() == 3);
+    CHECK(votes[0].who == text_of_particle(s->scene, 7));
+    CHECK(votes[1].who == text_of_particle(s->scene, 60));
+    CHECK(votes[2].who == text_of_particle(s->scene, 31));
+    CHECK(votes[0].dt == Approx(op.stable_dt()).epsilon(1e-12));
+    CHECK(votes[0].dt < votes[1].dt);
+    CHECK(op.smallest(1000).size() == 64);
+    // One that is compressed fast is damped more: beta mu counts.
+    sph.drho_dt[12] = 1e3 * sph.rho[12] * sph.c0 / sph.h;
+    CHECK(op.smallest(1)[0].who == text_of_particle(s->scene, 12));
+  }
 }
 
 TEST_CASE("effects.csv: shares of operations, sums of effects, prices of pair terms", "[app]") {
