@@ -118,4 +118,24 @@ double fill_cell_volume(const Keys& part, double spacing, int dimension) {
   return grid->cell.head(dimension).prod();
 }
 
+std::string fill_note(const Keys& part, double spacing, int dimension) {
+  const auto grid = lattice(part, spacing, dimension);
+  if (!grid) return "";
+  std::string axes;
+  for (Eigen::Index k = 0; k < dimension; ++k) {
+    const double ratio = grid->cell[k] / spacing;
+    if (std::abs(ratio - 1) <= 1e-6) continue;
+    const Index n = grid->n[static_cast<std::size_t>(k)];
+    axes += fmt::format("{}{} cells of {:.6g} m in {} ({:+.2g} %)", axes.empty() ? "" : ", ", n,
+                        grid->cell[k], "xyz"[k], 100 * (ratio - 1));
+  }
+  if (axes.empty()) return "";
+  const double volume = grid->cell.head(dimension).prod() / std::pow(spacing, dimension);
+  const std::string box = part.map("fill").path() + ".box";
+  return fmt::format(
+      "{}: {}: the spacing of {:.6g} m does not divide the box, which is filled "
+      "exactly by {}; a particle has {:+.2g} % of volume and mass against spacing^{}",
+      part.map("fill").where("box").text(), box, spacing, axes, 100 * (volume - 1), dimension);
+}
+
 }  // namespace gannet

@@ -1,6 +1,7 @@
 // Filling a region with particles.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/keys.hpp"
@@ -20,5 +21,10 @@ std::vector<Vec3> fill_points(const Keys& part, double spacing, int dimension);
 /// Volume of one cell of that lattice, so that n cells are the box exactly (spacing^dimension
 /// where the box is a whole number of spacings): [m^3], in 2D [m^2]. 0 where nothing is filled.
 double fill_cell_volume(const Keys& part, double spacing, int dimension);
+
+/// What a user should know of how the fill meets its box: where the spacing does not divide an
+/// edge, how far apart particles stand in that direction, and by how much the volume of a particle
+/// differs from spacing^dimension. "" where every edge is a whole number of spacings (to 1e-6).
+std::string fill_note(const Keys& part, double spacing, int dimension);
 
 }  // namespace gannet

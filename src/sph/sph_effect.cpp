@@ -262,6 +262,10 @@ void make_state(const Keys& root, Scene& scene) {
   sph.limits = lattice_limits(kernel, scene.dimension, ratio);
   read_materials(root, parts, sph, scene);
   sph.m = particle_mass(parts, scene, sph);
+  for (const Keys& part : parts) {
+    const std::string note = fill_note(part, sph.dx, scene.dimension);
+    if (!note.empty()) scene.warnings.push_back(note);
+  }
   const auto n = static_cast<std::size_t>(scene.particles.size());
   sph.rho.assign(n, 0);
   sph.p.assign(n, 0);

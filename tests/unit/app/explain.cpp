@@ -227,6 +227,17 @@ TEST_CASE("automatic: smoothing length and free surface are named with their val
   CHECK(value("parts.pool.surface") == "0.04 m");
 }
 
+TEST_CASE("check: a spacing that does not divide a box is told with what results", "[app]") {
+  const auto s = make_simulation_of_text(tank, {"dx=11mm"});
+  // 40/11 = 3.6 -> 4 cells of 10 mm in each direction: 1 - (10/11)^3 = 24.9 % less.
+  REQUIRE(s->scene.warnings.size() == 1);
+  CHECK(s->scene.warnings[0] ==
+        "case.yaml:4:60: parts.pool.fill.box: the spacing of 0.011 m does not divide the box, "
+        "which is filled exactly by 4 cells of 0.01 m in x (-9.1 %), 4 cells of 0.01 m in y "
+        "(-9.1 %), 4 cells of 0.01 m in z (-9.1 %); a particle has -25 % of volume and mass "
+        "against spacing^3");
+}
+
 TEST_CASE("check: the particles that allow the smallest steps are named one by one", "[app]") {
   const auto s = make_simulation_of_text(tank + "effects: {viscosity: {alpha: 0.1, beta: 2}}\n");
   evaluate_start(s->models);
