@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "input/language.hpp"
 #include "input/nearest.hpp"
 
@@ -70,6 +72,60 @@ bool switch_map(TextNode& root, const std::vector<std::string>& path, const Key*
   return true;
 }
 
+/// Whether a path is more than the name and ends with it.
+bool ends_with_name(const std::string& path, const std::string& name) {
+  return path.size() > name.size() + 1 && path.ends_with("." + name);
+}
+
+/// What varies or judges a case is no part of it.
+bool is_aside(const std::string& path, const std::string& key) {
+  return path.empty() && (key == "study" || key == "hard");
+}
+
+/// Paths of the text that end with the name.
+void find_written(const TextNode& at, const std::string& path, const std::string& name,
+                  std::vector<std::string>& found) {
+  for (const TextNode& item : at.items) {
+    if (item.key.empty() || is_aside(path, item.key)) continue;
+    const std::string whole = path.empty() ? item.key : path + "." + item.key;
+    if (ends_with_name(whole, name)) found.push_back(whole);
+    if (item.form == TextNode::Form::map) find_written(item, whole, name, found);
+  }
+}
+
+/// Paths that end with the name and that the language knows at the places that the case has.
+void find_allowed(const Key& at, TextNode* map, const std::string& path, const std::string& name,
+                  std::vector<std::string>& found) {
+  for (const Key& key : at.keys) {
+    if (is_aside(path, key.name)) continue;
+    std::vector<std::string> names{key.name};
+    if (key.name == "*") names = map != nullptr ? names_of(*map) : std::vector<std::string>{};
+    for (const std::string& one : names) {
+      const std::string whole = path.empty() ? one : path + "." + one;
+      if (ends_with_name(whole, name)) found.push_back(whole);
+      find_allowed(key, map != nullptr ? find(*map, one) : nullptr, whole, name, found);
+    }
+  }
+}
+
+/// "let.dx" for "dx": the one key whose path ends so, first of those that the case writes, then of
+/// all that the language allows in it. What begins at the top of the language, or what nothing ends
+/// with, stays; "" and a mistake where several are meant.
+std::string whole_path(const std::string& name, TextNode& root, const Key& language,
+                       const Location& place, Mistakes& mistakes) {
+  if (find_key(language, split(name).front()) != nullptr) return name;
+  std::vector<std::string> found;
+  find_written(root, "", name, found);
+  if (found.empty()) find_allowed(language, &root, "", name, found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  if (found.empty()) return name;
+  if (found.size() == 1) return found.front();
+  mistakes.add(place, fmt::format("'{}' may be {}; write more of the one that is meant", name,
+                                  fmt::join(found, " or ")));
+  return "";
+}
+
 void apply(TextNode& root, const Key& language, const std::string& text, Mistakes& mistakes) {
   const Location place{"--set " + text, 0, 0};
   const std::size_t equals = text.find('=');
@@ -77,7 +133,9 @@ void apply(TextNode& root, const Key& language, const std::string& text, Mistake
     mistakes.add(place, "key.path=value is wanted, such as let.dx=8mm");
     return;
   }
-  const std::vector<std::string> path = split(text.substr(0, equals));
+  const std::string whole = whole_path(text.substr(0, equals), root, language, place, mistakes);
+  if (whole.empty()) return;
+  const std::vector<std::string> path = split(whole);
   if (path.front() == "gannet") {
     mistakes.add(place, "gannet: the version belongs to the file and cannot be set");
     return;

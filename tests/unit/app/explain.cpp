@@ -227,6 +227,15 @@ TEST_CASE("automatic: smoothing length and free surface are named with their val
   CHECK(value("parts.pool.surface") == "0.04 m");
 }
 
+TEST_CASE("overrides: the end of a path stands for the whole where one key has it", "[app]") {
+  CHECK(make_simulation_of_text(tank, {"dx=20mm"})->scene.particles.size() == 8);
+  CHECK(make_simulation_of_text(tank, {"spacing=20mm"})->scene.particles.size() == 8);
+  CHECK(presence(*make_simulation_of_text(tank, {"xsph.epsilon=0.5"}), "xsph").state == State::on);
+  CHECK_THROWS_WITH(make_simulation_of_text(slam, {"material=water"}),
+                    Catch::Contains("--set material=water: 'material' may be "
+                                    "parts.panel.shell.material or parts.pool.sph.material"));
+}
+
 TEST_CASE("check: a spacing that does not divide a box is told with what results", "[app]") {
   const auto s = make_simulation_of_text(tank, {"dx=11mm"});
   // 40/11 = 3.6 -> 4 cells of 10 mm in each direction: 1 - (10/11)^3 = 24.9 % less.
