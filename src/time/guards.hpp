@@ -22,9 +22,9 @@ struct GuardState {
                          ///< scale (tracked)
 };
 
-/// The effect "guards": always on. Adds, at the end of look of the fastest model, "energy
-/// balance" (each step at which levels coincide) and "guards" (finite and bounded node motion,
-/// density range, step collapse, energy error). A guard that trips throws RunError.
+/// The effect "guards". Adds, at the end of look of the fastest model, "energy balance" (each step
+/// at which levels coincide) and, unless effects.guards is off, "guards" (finite and bounded node
+/// motion, density range, step collapse, energy error). A guard that trips throws RunError.
 Effect guards_effect();
 
 }  // namespace gannet
