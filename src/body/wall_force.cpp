@@ -15,20 +15,31 @@ namespace gannet {
 namespace {
 
 Schema schema() {
-  return {{"probes.*",
-           {.name = "wall_force",
-            .kind = Kind::text,
-            .text = "force on a wall (a boundary with planes, or one of its planes: basin.z_min) "
-                    "or on a part of shells, split into pressure and viscosity"}}};
+  return {
+      {"probes.*",
+       {.name = "wall_force",
+        .kind = Kind::text,
+        .text =
+            "force on a wall (a boundary with planes, one of its planes: basin.z_min, or a "
+            "part of wall particles) or on a part of shells, split into pressure and viscosity"}}};
 }
 
-/// Names of what measures the force on a wall or a part: "plane.basin.z_min", "contact.slam".
+bool is_of_kind(const Scene& scene, const std::string& name, const char* kind) {
+  const int part = scene.part_number(name);
+  return part >= 0 && scene.parts[static_cast<std::size_t>(part)].kind == kind;
+}
+
+/// Names of what measures the force on a wall or a part: "plane.basin.z_min", and the dummy
+/// particles behind it, "wall.basin.z_min"; "contact.slam".
 std::vector<std::string> sources_of(const Keys& root, const Scene& scene, const std::string& name) {
   std::vector<std::string> sources;
   for (const Plane& plane : scene.planes) {
     const bool meant = plane.name == name || plane.name.starts_with(name + ".");
-    if (meant) sources.push_back("plane." + plane.name);
+    if (!meant) continue;
+    sources.push_back("plane." + plane.name);
+    if (is_of_kind(scene, plane.name, "wall")) sources.push_back("wall." + plane.name);
   }
+  if (sources.empty() && is_of_kind(scene, name, "wall")) sources.push_back("wall." + name);
   if (!sources.empty() || scene.part_number(name) < 0 || !root.has("contacts")) return sources;
   const Keys contacts = root.map("contacts");
   for (const std::string& contact : contacts.names()) {
@@ -40,7 +51,7 @@ std::vector<std::string> sources_of(const Keys& root, const Scene& scene, const 
 
 void complain(const Keys& probe, const Scene& scene, const std::string& name) {
   const int part = scene.part_number(name);
-  if (part >= 0 && scene.parts[static_cast<std::size_t>(part)].is_particles()) {
+  if (is_of_kind(scene, name, "sph")) {
     probe.complain("wall_force", fmt::format("'{}' is made of particles; the force on a wall or "
                                              "on a part of shells is measured",
                                              name));
@@ -50,7 +61,7 @@ void complain(const Keys& probe, const Scene& scene, const std::string& name) {
     std::string known;
     for (const Plane& p : scene.planes) known += (known.empty() ? "" : ", ") + p.name;
     for (const Part& p : scene.parts) {
-      if (!p.is_particles()) known += (known.empty() ? "" : ", ") + p.name;
+      if (p.kind != "sph") known += (known.empty() ? "" : ", ") + p.name;
     }
     probe.complain("wall_force", fmt::format("there is no wall or part '{}'; there are: {}", name,
                                              known.empty() ? "none" : known));
@@ -82,9 +93,7 @@ void operations(const Keys& root, Scene& scene, Models&) {
     if (!probe.has("wall_force")) continue;
     const std::string name = probe.word("wall_force");
     const std::vector<std::string> sources = sources_of(root, scene, name);
-    const int part = scene.part_number(name);
-    const bool water = part >= 0 && scene.parts[static_cast<std::size_t>(part)].is_particles();
-    if (sources.empty() || water) {
+    if (sources.empty() || is_of_kind(scene, name, "sph")) {
       complain(probe, scene, name);
       continue;
     }

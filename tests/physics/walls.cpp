@@ -52,6 +52,7 @@ loads: {{gravity: [{}, -9.81 m/s^2, 0]}}
 effects: {{viscosity: {{type: monaghan, alpha: 0.1}}}}
 probes:
   side: {{pressure: {{at: [0, 50 mm, 0], on: tank}}}}
+  held: {{wall_force: tank}}
 output: {{until: 10 s}}
 )",
                      motion, gravity_x);
@@ -183,13 +184,16 @@ TEST_CASE("physics: a tank that is turned holds its water level", "[physics]") {
       tank(", motion: {rotation: {axis: [0, 0, 1], angle: \"min(t, 0.2)*0.5\"}}", "0"));
   const auto p = side_pressure(*s, 3);
   double mean = 0;
+  double held = 0;  // by all walls along y
   int n = 0;
   double worst = -1;
   run_until(*s, 3.5, [&] {
     mean += measured(s->scene, "probe.side");
+    held += measured(s->scene, "probe.held", 7);
     ++n;
   });
   mean /= n;
+  CHECK(held / n == Approx(-9.81 * 80).epsilon(0.01));  // 0.4 x 0.2 m of water
   // Turned by 0.1 rad about the corner: the gauge's depth below the surface, which is level at
   // half a tank's length.
   const double up = 0.2 / std::cos(0.1) + 0.2 * std::tan(0.1);
