@@ -106,7 +106,8 @@ TEST_CASE("fill: an empty region is a located mistake", "[mesh][errors]") {
         "case.yaml:14:5: parts.skin.fill.box.to: more than 2e+09 particles of spacing 0.1 m would "
         "fill the box");
   CHECK(mistakes_of(part({map("fill", {})}), 0.1, 3) ==
-        "case.yaml:11:5: parts.skin.fill: says no region; a 'box' is wanted");
+        "case.yaml:11:5: parts.skin.fill: says no region; a 'box', an 'ellipsoid' or a 'cylinder' "
+        "is wanted");
 }
 
 TEST_CASE("fill: one spacing thick holds one layer, also with rounding", "[mesh]") {
@@ -114,4 +115,56 @@ TEST_CASE("fill: one spacing thick holds one layer, also with rounding", "[mesh]
   Mistakes mistakes;
   CHECK(fill_points(Keys(part, mistakes), 0.1, 3).size() == 9);
   CHECK(mistakes.empty());
+}
+
+TEST_CASE("fill: an ellipse has the lattice points inside, centred", "[mesh]") {
+  const Value part = test::part({map(
+      "fill", {map("ellipsoid", {numbers("centre", {1, 2, 0}), numbers("radii", {1, 0.5, 0})})})});
+  Mistakes mistakes;
+  const auto points = fill_points(Keys(part, mistakes), 0.5, 2);
+  // Rows at y = 2 +- 0.25: |x - 1| <= sqrt(1 - 0.25) = 0.87, so 0.25 and 0.75.
+  const std::vector<Vec3> expected = {{0.25, 1.75, 0}, {0.75, 1.75, 0}, {1.25, 1.75, 0},
+                                      {1.75, 1.75, 0}, {0.25, 2.25, 0}, {0.75, 2.25, 0},
+                                      {1.25, 2.25, 0}, {1.75, 2.25, 0}};
+  CHECK(points == expected);
+  CHECK(fill_cell_volume(Keys(part, mistakes), 0.5, 2) == 0.25);
+  // 8 cells of 0.25 for pi/2: +27 %.
+  CHECK(fill_note(Keys(part, mistakes), 0.5, 2).find("+27 %") != std::string::npos);
+  CHECK(mistakes.empty());
+}
+
+TEST_CASE("fill: a cylinder fills its length, and its circle as the spacing goes to 0", "[mesh]") {
+  const Value part = test::part(
+      {map("fill", {map("cylinder", {numbers("from", {2, 0, 1}), numbers("to", {0.9, 0, 1}),
+                                     numbers("radius", {0.5})})})});
+  Mistakes mistakes;
+  for (const double dx : {0.1, 0.02}) {
+    const auto points = fill_points(Keys(part, mistakes), dx, 3);
+    const double volume =
+        static_cast<double>(points.size()) * fill_cell_volume(Keys(part, mistakes), dx, 3);
+    CHECK(volume == Approx(M_PI * 0.25 * 1.1).epsilon(0.5 * dx));
+    for (const Vec3& x : points) {
+      CHECK(std::hypot(x.y(), x.z() - 1) <= 0.5);
+      CHECK(x.x() > 0.9);
+      CHECK(x.x() < 2);
+    }
+  }
+  CHECK(mistakes.empty());
+}
+
+TEST_CASE("fill: shapes that cannot be filled are mistakes", "[mesh]") {
+  const auto ellipse = [](std::vector<double> radii) {
+    return test::part(
+        {map("fill", {map("ellipsoid", {numbers("centre", {0, 0, 0}), numbers("radii", radii)})})});
+  };
+  CHECK(mistakes_of(ellipse({1, 0.05, 0}), 0.1, 2).find("empty fill") != std::string::npos);
+  const Value leaning = test::part(
+      {map("fill", {map("cylinder", {numbers("from", {0, 0, 0}), numbers("to", {1, 1, 0}),
+                                     numbers("radius", {0.5})})})});
+  CHECK(mistakes_of(leaning, 0.1, 3).find("along x, y or z") != std::string::npos);
+  CHECK(mistakes_of(leaning, 0.1, 2).find("plane case") != std::string::npos);
+  const Value two = test::part({map(
+      "fill", {map("box", {numbers("from", {0, 0, 0}), numbers("to", {1, 1, 1})}),
+               map("ellipsoid", {numbers("centre", {0, 0, 0}), numbers("radii", {1, 1, 1})})})});
+  CHECK(mistakes_of(two, 0.1, 3).find("more than one region") != std::string::npos);
 }
