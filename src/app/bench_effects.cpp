@@ -74,6 +74,8 @@ constexpr EffectCase cases[] = {
     {"shifting", "water_2d", "effects: {shifting: {coefficient: 0.5}}", true},
     {"renormalisation", "water", "effects: {renormalisation: {every: 30}}"},
     {"gravity", "water", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},
+    {"sponge", "water",
+     "boundaries: {beach: {sponge: {box: {from: [-9, -9, -9], to: [9, 9, 9]}, ramp: 1, rate: 1}}}"},
     {"gravity", "sheet", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},
     {"contact with planes", "water", "boundaries: {floor: {planes: {z: -1 m}}}"},
     {"mirror_walls", "water", "boundaries: {floor: {planes: {z: 0}}}"},

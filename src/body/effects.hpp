@@ -23,6 +23,10 @@ Effect pressure_effect();
 /// loads.NAME.force: a total force spread evenly over a set of nodes.
 Effect nodal_force_effect();
 
+/// boundaries.NAME.sponge: velocity of particles is damped in a box. Stands after `leapfrog`, whose
+/// kick it corrects, and before what prescribes the motion of particles.
+Effect sponge_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 
