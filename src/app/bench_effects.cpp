@@ -76,6 +76,7 @@ constexpr EffectCase cases[] = {
     {"gravity", "water", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},
     {"sponge", "water",
      "boundaries: {beach: {sponge: {box: {from: [-9, -9, -9], to: [9, 9, 9]}, ramp: 1, rate: 1}}}"},
+    {"relaxation", "water", "effects: {relaxation: {rate: 1, until: 9 s}}"},
     {"gravity", "sheet", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},
     {"contact with planes", "water", "boundaries: {floor: {planes: {z: -1 m}}}"},
     {"mirror_walls", "water", "boundaries: {floor: {planes: {z: 0}}}"},

@@ -35,6 +35,7 @@ std::vector<Effect> make_table() {
       leapfrog_effect(),       // first: clears forces, kicks and drifts
       gravity_effect(),        // says what gravity is before others ask the scene
       sponge_effect(),         // after the free kick, before motions that are given
+      relaxation_effect(),     // likewise
       planes_effect(),         //
       plane_motion_effect(),   // before lists are made: planes are where they are by then
       wall_pressure_effect(),  // what the force pass of the particles reads

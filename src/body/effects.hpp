@@ -27,6 +27,10 @@ Effect nodal_force_effect();
 /// kick it corrects, and before what prescribes the motion of particles.
 Effect sponge_effect();
 
+/// effects.relaxation: velocity of particles is damped at the start of a run. Stands where `sponge`
+/// does.
+Effect relaxation_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "body/effects.hpp"
+#include "body/relaxation.hpp"
 #include "body/sponge.hpp"
 #include "small_world.hpp"
 
@@ -117,4 +118,41 @@ TEST_CASE("sponge: mistakes", "[body]") {
   CHECK(mistakes.find("boundaries.b.sponge.box.to: each coordinate must be greater") !=
         std::string::npos);
   CHECK(mistakes.find("boundaries.c.sponge.rate: missing") != std::string::npos);
+}
+
+TEST_CASE("relaxation: ends with time, or with the motion", "[body]") {
+  SettlingPhase phase{.rate = 10, .until = 2, .share = 0.01};
+  look_at(phase, 0, 0);  // at rest before anything has begun
+  look_at(phase, 5, 0.05);
+  CHECK(phase.over == 0);
+  look_at(phase, 0.04, 0.1);  // a moment of a swing
+  look_at(phase, 3, 0.2);
+  CHECK(phase.still_since == 0.2);
+  look_at(phase, 0.04, 0.25);
+  CHECK(phase.over == 0);
+  look_at(phase, 0.03, 0.31);  // still for more than 1/rate
+  CHECK(phase.over == 1);
+
+  SettlingPhase by_time{.rate = 10, .until = 2};
+  for (const double t : {0.0, 0.5, 1.9}) look_at(by_time, 0, t);
+  CHECK(by_time.over == 0);
+  look_at(by_time, 4, 2);
+  CHECK(by_time.over == 1);
+}
+
+TEST_CASE("relaxation: what it takes stands in the ledger; later it takes nothing", "[body]") {
+  auto world = make_world("effects: {relaxation: {rate: 10 1/s, until: 0.1 s}}",
+                          two_particles({0.3, 0.4, 0}), {relaxation_effect()});
+  world->dt = 1e-3;
+  world->take_steps(100);
+  // Two of 2 kg at 0.5 m/s; the last damped kick is that of level 100.
+  CHECK(entry(*world, "relaxation") == Approx(0.5 * (1 - std::exp(-2.0))).epsilon(0.02));
+  world->take_steps(2);
+  const double v = world->scene.nodes.v[0].x;
+  const double taken = entry(*world, "relaxation");
+  CHECK(v == Approx(0.3 * std::exp(-1.0)).epsilon(0.01));
+  CHECK(entry(*world, "kinetic") + taken == Approx(0.5).epsilon(1e-4));
+  world->take_steps(50);
+  CHECK(world->scene.nodes.v[0].x == v);
+  CHECK(entry(*world, "relaxation") == taken);
 }
