@@ -50,6 +50,7 @@ std::vector<Effect> make_table() {
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
       walls_effect(),              // built around the particles; follows their passes
+      sea_effect(),                // carries what fills and walls have made
       shell_effect(),              //
       plane_contact_effect(),      //
       contacts_effect(),           //

@@ -39,6 +39,9 @@ Effect xsph_effect();
 /// whose particles they are built around and whose passes they follow.
 Effect walls_effect();
 
+/// sea: waves that particles start in. Stands after `walls`, whose particles it carries.
+Effect sea_effect();
+
 /// The pressure of wall particles. Stands before `sph`: the pair pass for the force reads it.
 Effect wall_pressure_effect();
 

@@ -57,8 +57,10 @@ Schema schema() {
                .fallback = "on"}};
   const Key start{.name = "start",
                   .kind = Kind::choice,
-                  .text = "pressure at the start: p0 everywhere, or p0 + density g depth",
-                  .choices = {"rest", "hydrostatic"}};
+                  .text =
+                      "pressure at the start: p0 everywhere, p0 + density g depth, or place, "
+                      "velocity and pressure of the waves of `sea`",
+                  .choices = {"rest", "hydrostatic", "waves"}};
   const Key surface{.name = "surface",
                     .unit = dim::length,
                     .text =

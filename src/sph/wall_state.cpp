@@ -134,11 +134,13 @@ void set_dry_values(Walls& walls, SphState& sph, const Scene& scene) {
 }  // namespace
 
 bool moves(const Wall& wall, const Scene& scene) {
+  if (wall.waves) return true;
   return wall.plane >= 0 ? scene.planes[static_cast<std::size_t>(wall.plane)].moves
                          : wall.motion.moves();
 }
 
 Vec3 mean_velocity(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step) {
+  if (wall.waves) return mean_velocity_of(*wall.waves, rest_place_of(*wall.waves, x, step.t), step);
   if (wall.plane >= 0) {
     const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
     return plane.velocity + turned_by(step.dt * plane.spin, x - plane.point) / step.dt;
@@ -151,7 +153,13 @@ Vec3 mean_velocity(const Wall& wall, const Scene& scene, const Vec3& x, const St
   return v + turned_by(theta, x - centre_at(motion, step.t)) / step.dt;
 }
 
+Vec3 mean_velocity_of(const WaveField& waves, const Vec3& X, const Step& step) {
+  return (displacement_at(waves, X, step.t + step.dt) - displacement_at(waves, X, step.t)) /
+         step.dt;
+}
+
 Vec3 velocity_at_start(const Wall& wall, const Scene& scene, const Vec3& x) {
+  if (wall.waves) return velocity_of(*wall.waves, rest_place_of(*wall.waves, x, 0), 0);
   if (wall.plane >= 0) {
     const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
     return plane.velocity + plane.spin.cross(x - plane.point);
@@ -161,6 +169,9 @@ Vec3 velocity_at_start(const Wall& wall, const Scene& scene, const Vec3& x) {
 }
 
 Vec3 acceleration_at(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step) {
+  if (wall.waves) {
+    return acceleration_of(*wall.waves, rest_place_of(*wall.waves, x, step.t), step.t);
+  }
   if (wall.plane >= 0) {
     const Plane& plane = scene.planes[static_cast<std::size_t>(wall.plane)];
     if (!(step.dt_old > 0)) return Vec3::Zero();
@@ -186,7 +197,11 @@ void set_wall_pressure(Walls& walls, SphState& sph, Scene& scene, const Step& st
             walls.sums);
   for_wet_particles(walls, scene, [&](Index k, const Wall& wall, const WallSums& sums) {
     Vec3 g_minus_a = scene.gravity;
-    if (moves(wall, scene)) g_minus_a -= acceleration_at(wall, scene, xyz(view.x[k]), step);
+    if (wall.waves) {
+      g_minus_a -= acceleration_of(*wall.waves, xyz(walls.rest_place[k]), step.t);
+    } else if (moves(wall, scene)) {
+      g_minus_a -= acceleration_at(wall, scene, xyz(view.x[k]), step);
+    }
     const WallValues values = wall_values(sums, g_minus_a);
     set_pressure(walls, sph, scene, k, values.p);
     set_xyz(sph.v_seen[k], wall.slips ? values.v : Vec3(2 * xyz(view.v[k]) - values.v));
@@ -262,7 +277,8 @@ void kick_walls(Walls& walls, Scene& scene, const Step& step) {
       set_xyz(nodes.v[i], Vec3::Zero());
       return;
     }
-    const Vec3 v = mean_velocity(wall, scene, xyz(nodes.x[i]), step);
+    const Vec3 v = wall.waves ? mean_velocity_of(*wall.waves, xyz(walls.rest_place[k]), step)
+                              : mean_velocity(wall, scene, xyz(nodes.x[i]), step);
     // Before the first level a wall has moved as it does from then on: nothing had to set it going.
     const Vec3 R = step.dt_old > 0 ? Vec3((v - xyz(nodes.v[i])) / (nodes.v[i].w * dt)) : Vec3(-f);
     set_xyz(walls.reaction[k], R);

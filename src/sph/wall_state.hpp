@@ -1,12 +1,14 @@
 // Walls of dummy particles: what they are, how they move, what the fluid does to them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/time_table.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
+#include "scene/wave_field.hpp"
 #include "sph/sph_state.hpp"
 #include "sph/wall_pass.hpp"
 
@@ -30,6 +32,7 @@ struct Wall {
   bool slips = true;
   WallMotion motion;
   int plane = -1;  ///< number in scene.planes of the plane that it backs, and whose motion it has
+  std::shared_ptr<const WaveField> waves;  ///< whose water it moves as; none: it does not
   // What the last step says, at level n:
   Vec3 force = Vec3::Zero();          ///< of the fluid on the wall [N]
   Vec3 viscous_force = Vec3::Zero();  ///< the viscous part of it [N]
@@ -60,9 +63,10 @@ struct Walls {
   Array<Line> f_before;  ///< what acted on a particle before the pair pass [N]
   Array<Line> f;         ///< force of the fluid [N]
   std::vector<WallTerm> terms;
-  Array<Line> reaction;   ///< what keeps a particle to the motion of its wall [N]
-  Array<double> p_rho2;   ///< tracked: p/rho^2 at level n [m^5/(kg s^2)]
-  Array<double> drho_dt;  ///< tracked: that the fluid alone would cause, at n-1/2 [kg/(m^3 s)]
+  Array<Line> reaction;    ///< what keeps a particle to the motion of its wall [N]
+  Array<double> p_rho2;    ///< tracked: p/rho^2 at level n [m^5/(kg s^2)]
+  Array<Line> rest_place;  ///< tracked: X of particles that follow waves [m]; empty without them
+  Array<double> drho_dt;   ///< tracked: that the fluid alone would cause, at n-1/2 [kg/(m^3 s)]
 
   /// The wall of particle k; nullptr for fluid.
   [[nodiscard]] const Wall* of(const Scene& scene, Index k) const {
@@ -78,6 +82,9 @@ bool moves(const Wall& wall, const Scene& scene);
 /// over the step of v = V(t) + omega(t) x (x - c(t)), along the chord of its circle. x: 3 [m]. A
 /// wall behind a plane takes what the plane's own motion chose for the step.
 Vec3 mean_velocity(const Wall& wall, const Scene& scene, const Vec3& x, const Step& step);
+
+/// The same for a particle that follows waves from its place of rest X: 3 [m].
+Vec3 mean_velocity_of(const WaveField& waves, const Vec3& X, const Step& step);
 
 /// Velocity of a point x of the wall at t = 0 [m/s].
 Vec3 velocity_at_start(const Wall& wall, const Scene& scene, const Vec3& x);

@@ -18,6 +18,7 @@
 
 #include "mesh/fill.hpp"
 #include "scene/plane_keys.hpp"
+#include "scene/wave_keys.hpp"
 #include "sph/effects.hpp"
 #include "sph/wall_points.hpp"
 #include "sph/wall_state.hpp"
@@ -56,7 +57,11 @@ Schema schema() {
        .kind = Kind::function,
        .unit = dim::none,
        .text = "multiplies both velocities in time, a table: [[0 s, 0], [1 ms, 1]]",
-       .variables = {"t"}}};
+       .variables = {"t"}},
+      {.name = "motion",
+       .kind = Kind::choice,
+       .text = "waves: each particle moves as the water of `sea` would at its place",
+       .choices = {"waves"}}};
   Key extent{.name = "extent",
              .kind = Kind::map,
              .text =
@@ -252,6 +257,13 @@ void read_walls(const Keys& root, const Scene& scene, Walls& walls) {
     wall.slips = keys.word("slip") == "free";
     wall.motion = read_motion(keys);
     if (scene.dimension == 2) require_plane_motion(keys, wall.motion);
+    if (keys.has("motion") && root.has("sea")) {
+      const WaveField field = read_wave_field(root, scene.dimension);
+      if (field.depth > 0) wall.waves = std::make_shared<WaveField>(field);
+    }
+    if (keys.has("motion") && (wall.motion.moves() || keys.has("factor"))) {
+      keys.complain("motion", "moves the wall alone: no velocity, angular_velocity or factor");
+    }
     walls.list.push_back(std::move(wall));
   }
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
@@ -290,6 +302,11 @@ void make_state(const Keys& root, Scene& scene) {
   walls.p_rho2.assign(n, 0);
   walls.drho_dt.assign(n, 0);
   const Over over = Over::particles;
+  if (std::ranges::any_of(walls.list, [](const Wall& w) { return w.waves != nullptr; })) {
+    walls.rest_place.assign(n, {});
+    track(scene,
+          line_field("wall rest place", "m", "", over, walls.rest_place, 0, 3, GhostRule::none));
+  }
   track(scene,
         plain_field("wall p/rho^2", "m^5/(kg s^2)", "", over, walls.p_rho2, 1, GhostRule::none));
   track(scene,
@@ -300,7 +317,9 @@ void make_state(const Keys& root, Scene& scene) {
     const auto i = static_cast<std::size_t>(scene.particles.begin + k);
     sph.rho[k] = eos_of(sph, scene, k).rho0;
     sph.p[k] = eos_of(sph, scene, k).p0;
-    set_xyz(scene.nodes.v[i], velocity_at_start(*wall, scene, xyz(scene.nodes.x[i])));
+    const Vec3 x = xyz(scene.nodes.x[i]);
+    if (wall->waves) set_xyz(walls.rest_place[k], rest_place_of(*wall->waves, x, 0));
+    set_xyz(scene.nodes.v[i], velocity_at_start(*wall, scene, x));
   }
 }
 

@@ -69,6 +69,10 @@ Sample walls_sample() {
   return {[] { return std::make_unique<WatchedRun>(channel); }, 150, false};
 }
 
+Sample sea_sample() {
+  return {[] { return std::make_unique<WatchedRun>(sea); }, 150, false};
+}
+
 /// Runs a sample from its start; returns it at its end.
 std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
   set_threads(n_threads);
@@ -272,4 +276,12 @@ TEST_CASE("same bits: output, checkpoints and the end time change nothing in a p
 TEST_CASE("same bits: output, checkpoints and the end time change nothing in a dam break",
           "[bits]") {
   check_output(dam_break, small_dam, "1 ms", "60 ms", 400);
+}
+
+TEST_CASE("same bits: waves over a bed, sponge and relaxation, 1, 2, 3 and 5 threads", "[bits]") {
+  check_threads(sea_sample());
+}
+
+TEST_CASE("same bits: restarts of waves over a bed, sponge and relaxation", "[bits]") {
+  check_restart(sea_sample());
 }

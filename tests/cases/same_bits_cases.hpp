@@ -112,4 +112,29 @@ effects:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// Waves of two lengths on a current over a bed that goes with them, 200 x 25 particles, with a
+/// sponge and a phase of relaxation that ends half way.
+inline const std::string sea = R"case(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 20 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 10 mm, skin: 0.06}
+    fill: {box: {from: [0, -0.25 m, 0], to: [2 m, 0, 0]}}
+    start: waves
+  bed:
+    wall: {motion: waves}
+    fill: {box: {from: [0, -0.28 m, 0], to: [2 m, -0.25 m, 0]}}
+boundaries:
+  sides: {periodic: {x: [0, 2 m]}}
+  beach: {sponge: {box: {from: [1 m, -9 m, 0], to: [2 m, 9 m, 0]}, ramp: 0.2 m, rate: 5 1/s, velocity: ["0.5 + t", 0, 0]}}
+probes: {on_the_bed: {pressure: {at: [0.5 m, -0.25 m, 0], on: bed}}}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+sea: {depth: 1 m, current: [0.5 m/s, 0, 0], wave: {height: [30 mm, 10 mm], length: [1 m, 0.5 m], phase: [0, 40 deg]}}
+effects:
+  viscosity: {alpha: 0.05}
+  relaxation: {rate: 3 1/s, until: 25 ms}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 }  // namespace gannet::test

@@ -1,4 +1,5 @@
-// Waves in channels: what a sponge sends back; and how a tank is brought to rest.
+// Waves in channels: what a sponge sends back, how a tank is brought to rest, whether waves from a
+// field of waves go on as they began.
 #include <numbers>
 
 #include "running.hpp"
@@ -150,4 +151,104 @@ TEST_CASE("a sponge swallows a pulse of sound", "[physics]") {
   // What the leapfrog lets swing, of order 2.
   CHECK(damped.imbalance < 4e-3);
   CHECK(fine.imbalance < 0.4 * damped.imbalance);
+}
+
+namespace {
+
+/// One wave of 1 m in water that repeats; `floor` is what stands below.
+std::string travelling(double bottom, const std::string& sea, const std::string& floor) {
+  return fmt::format(R"yaml(gannet: 1
+dimension: 2
+let: {{dx: 20 mm}}
+materials: {{water: {{density: 1000, c0: 16 m/s}}}}
+parts:
+  water:
+    sph: {{material: water, spacing: dx, kernel: quintic_spline}}
+    fill: {{box: {{from: [0, {} m, 0], to: [1 m, 0, 0]}}}}
+    start: waves
+{}
+loads: {{gravity: [0, -9.81 m/s^2, 0]}}
+sea: {}
+effects: {{viscosity: {{alpha: 0.002}}, density_diffusion: {{delta: 0.1}}}}
+output: {{until: 10 s}}
+)yaml",
+                     bottom, floor, sea);
+}
+
+struct Travel {
+  double height = 0;  ///< at the end over that at the start [-]
+  double speed = 0;   ///< of the phase [m/s]
+  double imbalance = 0;
+};
+
+/// Size and phase of the wave by the mean of v_y exp(i k x) over the water.
+Travel travel(const std::string& text, double until) {
+  const auto s = make_simulation_of_text(text);
+  const double k = 2 * std::numbers::pi;
+  double first = 0;
+  double first_time = 0;
+  double phase = 0;
+  double last = 0;
+  Travel out;
+  const auto look = [&] {
+    double re = 0;
+    double im = 0;
+    for_particles(s->scene, [&](std::size_t n, const Vec3& x, const Vec3& v) {
+      if (s->scene.particle_part[n] != s->scene.part_number("water")) return;
+      re += v.y() * std::sin(k * x.x());
+      im += v.y() * std::cos(k * x.x());
+    });
+    const double size = std::hypot(re, im);
+    const double angle = std::atan2(-im, re);  // v_y ~ sin(k x - angle)
+    if (first == 0) {
+      first = size;
+      first_time = time_of(*s);
+    } else {
+      phase += std::remainder(angle - last, 2 * std::numbers::pi);
+      out.speed = phase / k / (time_of(*s) - first_time);
+    }
+    last = angle;
+    out.height = size / first;
+  };
+  run_until(*s, until, look);
+  out.imbalance = energy_error(*s);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a linear wave goes on with its height and speed", "[physics]") {
+  const double k = 2 * std::numbers::pi;
+  // Three periods over a flat floor at the depth of the sea.
+  const double flat = std::sqrt(9.81 / k * std::tanh(0.5 * k));
+  const Travel one =
+      travel(travelling(-0.5, "{depth: 0.5 m, wave: {height: 20 mm, length: 1 m}}",
+                        "boundaries: {b: {periodic: {x: [0, 1 m]}}, floor: {planes: {y: -0.5 m}}}"),
+             3 / flat);
+  fmt::print(
+      "wave over a flat floor: height {:.4f}, speed {:.4f} of {:.4f} m/s after 3 periods, "
+      "imbalance {:.1e}\n",
+      one.height, one.speed / flat, flat, one.imbalance);
+  CHECK(one.height == Approx(1).margin(0.05));
+  CHECK(one.speed == Approx(flat).epsilon(0.02));
+  CHECK(one.imbalance < 2e-3);
+  // Deeper sea, of which 0.3 m are filled, over a floor that moves with the waves; at rest, and on
+  // a current against them.
+  const double deep = std::sqrt(9.81 / k * std::tanh(2 * k));
+  for (const double current : {0.0, -0.4}) {
+    const std::string sea = fmt::format(
+        "{{depth: 2 m, current: [{} m/s, 0, 0], wave: {{height: 20 mm, length: 1 m}}}}", current);
+    const Travel two = travel(
+        travelling(-0.3, sea,
+                   "  bed:\n    wall: {motion: waves}\n    fill: {box: {from: [0, -0.38 m, 0], to: "
+                   "[1 m, -0.3 m, 0]}}\nboundaries: {b: {periodic: {x: [0, 1 m]}}}"),
+        3 / deep);
+    fmt::print(
+        "wave over a floor that moves, current {} m/s: height {:.4f}, speed {:.4f} m/s "
+        "for {:.4f} after 3 periods, imbalance {:.1e}\n",
+        current, two.height, two.speed, deep + current, two.imbalance);
+    CHECK(two.height == Approx(1).margin(0.05));
+    CHECK(two.speed - current == Approx(deep).epsilon(0.02));
+    CHECK(two.imbalance < 2e-3);
+  }
 }
