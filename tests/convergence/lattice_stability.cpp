@@ -179,3 +179,28 @@ TEST_CASE("lattice: particles leave an unsound lattice at the rate that is deriv
   // The same displacement swings where K is positive.
   CHECK(measured_rate(1.21, mode, 3 / rate, 8 / rate) < 0.1 * rate);
 }
+
+TEST_CASE("lattice: under pressure it resists shear as a solid of modulus 2 P K/k^2",
+          "[convergence]") {
+  struct Choice {
+    const char* name;
+    KernelType type;
+    double ratio;
+    double most;  ///< of |G|/P, along an axis and along the diagonal
+  };
+  const std::vector<Choice> choices = {{"cubic_spline", KernelType::cubic_spline, 1.25, 0.08},
+                                       {"wendland_c2", KernelType::wendland_c2, 2, 0.01},
+                                       {"quintic_spline", KernelType::quintic_spline, 1.25, 0.006}};
+  for (const Choice& c : choices) {
+    const std::vector<Neighbour> around = neighbours({c.type, 2, c.ratio});
+    const double k = 0.02;  // a wave of 300 spacings
+    const double axis = 2 * softest(around, {k, 0, 0}, 2).K / (k * k);
+    const double diagonal = 2 * softest(around, Vec3(k, k, 0) / std::sqrt(2.0), 2).K / (k * k);
+    WARN(fmt::format("{} at {}: G/P {:.4f} along an axis, {:.4f} along the diagonal", c.name,
+                     c.ratio, axis, diagonal));
+    CHECK(std::abs(axis) < c.most);
+    CHECK(std::abs(diagonal) < c.most);
+  }
+  const double cubic = softest(neighbours({KernelType::cubic_spline, 2, 1.25}), {0.02, 0, 0}, 2).K;
+  CHECK(2 * cubic / (0.02 * 0.02) == Approx(0.0704).epsilon(0.01));
+}
