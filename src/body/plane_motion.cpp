@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "body/effects.hpp"
+#include "scene/tracked_values.hpp"
 
 namespace gannet {
 
@@ -104,32 +105,18 @@ void state(const Keys& root, Scene& scene) {
   }
 }
 
-void track(Scene& scene, const std::string& name, const std::string& unit, int components,
-           std::function<double*()> values) {
-  Field f;
-  f.name = name;
-  f.unit = unit;
-  f.over = Over::scene;
-  f.components = components;
-  const auto size = static_cast<std::ptrdiff_t>(sizeof(double));
-  f.layout = {components * size, components * size, size, 1};
-  f.owner = "moving planes";
-  f.base = [values] { return reinterpret_cast<std::byte*>(values()); };
-  f.count = [] { return Index{1}; };
-  scene.fields.push_back(std::move(f));
-}
-
 /// Where planes are and how they move goes into checkpoints as it is: who looks at them after a
 /// restart, in whatever order, finds what an unbroken run has.
 void track_motion(PlaneMotion& motion, Scene& scene) {
+  const std::string owner = "moving planes";
   const std::string name = "motion." + motion.name + ".";
-  track(scene, name + "d", "m", 3, [&motion] { return motion.d.data(); });
-  track(scene, name + "theta", "rad", 1, [&motion] { return &motion.theta; });
+  track_values(scene, owner, name + "d", "m", 3, [&motion] { return motion.d.data(); });
+  track_values(scene, owner, name + "theta", "rad", 1, [&motion] { return &motion.theta; });
   for (const std::size_t k : motion.planes) {
     const std::string plane = "plane." + scene.planes[k].name + ".";
     const auto add = [&](const char* what, const char* unit, Vec3 Plane::*member) {
-      track(scene, plane + what, unit, 3,
-            [&scene, k, member] { return (scene.planes[k].*member).data(); });
+      track_values(scene, owner, plane + what, unit, 3,
+                   [&scene, k, member] { return (scene.planes[k].*member).data(); });
     };
     add("point", "m", &Plane::point);
     add("normal", "", &Plane::normal);

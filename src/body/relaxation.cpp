@@ -8,6 +8,7 @@
 #include "body/damping.hpp"
 #include "body/effects.hpp"
 #include "body/relaxation.hpp"
+#include "scene/tracked_values.hpp"
 
 namespace gannet {
 
@@ -46,19 +47,6 @@ bool asked_for(const Keys& root) {
   return root.has("effects") && root.map("effects").has("relaxation");
 }
 
-void track(Scene& scene, const char* name, const char* unit, double& value) {
-  Field f;
-  f.name = name;
-  f.unit = unit;
-  f.over = Over::scene;
-  const auto size = static_cast<std::ptrdiff_t>(sizeof(double));
-  f.layout = {size, size, size, 1};
-  f.owner = "relaxation";
-  f.base = [&value] { return reinterpret_cast<std::byte*>(&value); };
-  f.count = [] { return Index{1}; };
-  scene.fields.push_back(std::move(f));
-}
-
 void state(const Keys& root, Scene& scene) {
   if (!asked_for(root)) return;
   const Keys keys = root.map("effects").map("relaxation");
@@ -73,9 +61,11 @@ void state(const Keys& root, Scene& scene) {
   phase.until = keys.number("until");
   phase.share = keys.number_or("motion", 0);
   prepare_damping(relaxation.damping, scene);
-  track(scene, "relaxation.over", "", phase.over);
-  track(scene, "relaxation.largest", "J", phase.largest);
-  track(scene, "relaxation.still_since", "s", phase.still_since);
+  track_values(scene, "relaxation", "relaxation.over", "", 1, [&phase] { return &phase.over; });
+  track_values(scene, "relaxation", "relaxation.largest", "J", 1,
+               [&phase] { return &phase.largest; });
+  track_values(scene, "relaxation", "relaxation.still_since", "s", 1,
+               [&phase] { return &phase.still_since; });
 }
 
 /// Kinetic energy at level n of what is damped [J].

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "plan/effect.hpp"
+#include "scene/tracked_values.hpp"
 #include "sph/effects.hpp"
 #include "sph/ghost_force.hpp"
 #include "sph/moving_walls.hpp"
@@ -40,21 +41,8 @@ int axis_of(const Plane& plane, const Scene& scene) {
 
 /// Where walls were when images were made is state: a restart makes the same.
 void track_walls(Halo& halo, Scene& scene) {
-  const auto track = [&](const char* name, Vec3& place) {
-    Field f;
-    f.name = name;
-    f.unit = "m";
-    f.over = Over::scene;
-    f.components = 3;
-    const auto size = static_cast<std::ptrdiff_t>(sizeof(double));
-    f.layout = {3 * size, 3 * size, size, 1};
-    f.owner = "mirror_walls";
-    f.base = [&place] { return reinterpret_cast<std::byte*>(place.data()); };
-    f.count = [] { return Index{1}; };
-    scene.fields.push_back(std::move(f));
-  };
-  track("halo.low", halo.low);
-  track("halo.high", halo.high);
+  track_values(scene, "mirror_walls", "halo.low", "m", 3, [&halo] { return halo.low.data(); });
+  track_values(scene, "mirror_walls", "halo.high", "m", 3, [&halo] { return halo.high.data(); });
 }
 
 /// The plane that mirrors at an end of a direction: the innermost one at the

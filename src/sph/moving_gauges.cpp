@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/tracked_values.hpp"
+
 namespace gannet {
 
 namespace {
@@ -23,20 +25,6 @@ bool find_wall(const std::string& on, Scene& scene, Wall& wall) {
   return true;
 }
 
-void track(MovingGauge& gauge, Scene& scene) {
-  Field f;
-  f.name = "gauge." + gauge.name;
-  f.unit = "m";
-  f.over = Over::scene;
-  f.components = 3;
-  constexpr auto size = static_cast<std::ptrdiff_t>(sizeof(double));
-  f.layout = {3 * size, 3 * size, size, 1};
-  f.owner = "moving gauges";
-  f.base = [&gauge] { return reinterpret_cast<std::byte*>(gauge.x.data()); };
-  f.count = [] { return Index{1}; };
-  scene.fields.push_back(std::move(f));
-}
-
 }  // namespace
 
 MovingGauge* gauge_on_wall(const std::string& name, const std::string& on, const Vec3& x,
@@ -45,8 +33,12 @@ MovingGauge* gauge_on_wall(const std::string& name, const std::string& on, const
   if (!find_wall(on, scene, wall)) return nullptr;
   auto& list = scene.store.get<MovingGauges>().list;
   list.push_back({.name = name, .wall = std::move(wall), .x = x});
-  if (moves(list.back().wall, scene)) track(list.back(), scene);
-  return &list.back();
+  MovingGauge& gauge = list.back();
+  if (moves(gauge.wall, scene)) {
+    track_values(scene, "moving gauges", "gauge." + name, "m", 3,
+                 [&gauge] { return gauge.x.data(); });
+  }
+  return &gauge;
 }
 
 void add_gauge_motion(Scene& scene, Models& models) {
