@@ -12,8 +12,8 @@
 
 namespace gannet {
 
-/// One number as a function of time t [s] and place x [m], in SI. A formula works with storage of
-/// its own: one thread at a time may ask it.
+/// One number as a function of time t [s] and place x [m], in SI. Any number of threads may
+/// ask it at the same time.
 struct Function {
   std::string text = "0";  ///< as a case would give it
   double factor = 0;       ///< of a constant: its value; of a table: multiplies it

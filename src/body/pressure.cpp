@@ -11,17 +11,15 @@ namespace {
 
 constexpr Index chunk = 1024;
 
-/// Pressure at the centre of each cell. One after the other: a formula has one storage.
-void evaluate_pressure(PressureLoad& load, const Scene& scene, double t) {
-  const Part& part = scene.parts[static_cast<std::size_t>(load.part)];
+/// Pressure at the centre of a cell at time t [Pa], positive along the normals.
+double pressure_of(const PressureLoad& load, const Scene& scene, const Part& part, std::size_t cell,
+                   double t) {
   const auto n = static_cast<std::size_t>(nodes_per(part.cell));
-  for (std::size_t c = 0; c < load.p.size(); ++c) {
-    Vec3 centre = Vec3::Zero();
-    for (std::size_t a = 0; a < n; ++a) {
-      centre += xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[c * n + a])]);
-    }
-    load.p[c] = load.side * value_at(load.pressure, t, centre / static_cast<double>(n));
+  Vec3 centre = Vec3::Zero();
+  for (std::size_t a = 0; a < n; ++a) {
+    centre += xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[cell * n + a])]);
   }
+  return load.side * value_at(load.pressure, t, centre / static_cast<double>(n));
 }
 
 void push_cells(PressureLoad& load, const Scene& scene, double t) {
@@ -29,14 +27,13 @@ void push_cells(PressureLoad& load, const Scene& scene, double t) {
   const auto n = static_cast<std::size_t>(nodes_per(part.cell));
   const bool of_place = load.pressure.of_place;
   const double everywhere = of_place ? 0 : load.side * value_at(load.pressure, t);
-  if (of_place) evaluate_pressure(load, scene, t);
   const auto corner = [&](std::size_t k) {
     return xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[k])]);
   };
   parallel_for(part.n_cells(), chunk, [&](Index begin, Index end) {
     for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
       const std::size_t k = c * n;
-      const double p = of_place ? load.p[c] : everywhere;
+      const double p = of_place ? pressure_of(load, scene, part, c, t) : everywhere;
       Line* to = load.corner_force.data() + k;
       if (n == 4) {
         const auto force =
@@ -85,7 +82,6 @@ void prepare(PressureLoad& load, const Scene& scene) {
     Index& slot = next[local(part.connectivity[k])];
     load.corners[static_cast<std::size_t>(slot++)] = static_cast<Index>(k);
   }
-  if (load.pressure.of_place) load.p.assign(static_cast<std::size_t>(part.n_cells()), 0);
   load.corner_force.assign(part.connectivity.size(), {});
   load.force.assign(n_nodes, {});
 }

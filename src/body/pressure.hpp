@@ -34,7 +34,6 @@ struct PressureLoad {
   // Built by prepare():
   std::vector<Index> first;  ///< of node k of the part: entries first[k] .. first[k+1] of `corners`
   std::vector<Index> corners;  ///< cell * nodes_per(cell) + corner, in rising order
-  Array<double> p;             ///< by cell, where it depends on place [Pa]
   Array<Line> corner_force;    ///< by cell and corner [N]
   Array<Line> force;           ///< by node of the part, at level n [N]; w unused
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <muParser.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cctype>
@@ -181,40 +182,66 @@ std::vector<std::string> Formulas::variables_in(const std::string& text,
   return found;
 }
 
+namespace {
+
+/// A formula ready to be worked out, with storage of its own.
+struct Compiled {
+  mu::Parser parser;
+  std::vector<double> values;  ///< of the variables
+};
+
+/// All that a formula is made of.
+struct Recipe {
+  std::string text;
+  std::vector<std::string> variables;
+  std::map<std::string, Quantity> constants;
+  std::map<std::string, std::shared_ptr<const Curve>> curves;
+};
+
+/// Throws mu::ParserError where the text is no formula.
+std::unique_ptr<Compiled> made_from(const Recipe& recipe) {
+  auto made = std::make_unique<Compiled>();
+  made->values.assign(recipe.variables.size(), 0);
+  mu::Parser& parser = made->parser;
+  parser.ClearConst();
+  parser.DefineConst("pi", std::numbers::pi);
+  for (const auto& [name, value] : recipe.constants) parser.DefineConst(name, value.value);
+  for (const auto& [name, curve] : recipe.curves) {
+    parser.DefineFunUserData(name, value_of_curve, const_cast<Curve*>(curve.get()), false);
+  }
+  for (std::size_t k = 0; k < recipe.variables.size(); ++k) {
+    parser.DefineVar(recipe.variables[k], &made->values[k]);
+  }
+  parser.SetExpr(recipe.text);
+  return made;
+}
+
+}  // namespace
+
 std::function<double(const double*)> Formulas::compile(
     const std::string& text, const std::vector<std::string>& variables) const {
-  struct Compiled {
-    mu::Parser parser;
-    std::vector<double> values;
-    std::map<std::string, std::shared_ptr<const Curve>> curves;
+  struct Shared {
+    Recipe recipe;
+    tbb::enumerable_thread_specific<std::unique_ptr<Compiled>> of_thread{};
   };
   check_names(text, variables);
-  const auto made = std::make_shared<Compiled>();
-  made->values.assign(variables.size(), 0);
-  made->curves = curves_;
+  const auto shared = std::make_shared<Shared>(Recipe{text, variables, values_, curves_});
   int n_results = 0;
   try {
-    mu::Parser& parser = made->parser;
-    parser.ClearConst();
-    parser.DefineConst("pi", std::numbers::pi);
-    for (const auto& [name, value] : values_) parser.DefineConst(name, value.value);
-    for (const auto& [name, curve] : made->curves) {
-      parser.DefineFunUserData(name, value_of_curve, const_cast<Curve*>(curve.get()), false);
-    }
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-      parser.DefineVar(variables[k], &made->values[k]);
-    }
-    parser.SetExpr(text);
-    parser.Eval(n_results);
+    std::unique_ptr<Compiled>& first = shared->of_thread.local();
+    first = made_from(shared->recipe);
+    first->parser.Eval(n_results);
   } catch (const mu::ParserError& error) {
     std::string what = error.GetMsg();
     while (!what.empty() && (what.back() == '.' || what.back() == ' ')) what.pop_back();
     throw FormulaError(fmt::format("'{}' cannot be worked out: {}", text, what));
   }
   if (n_results != 1) throw FormulaError(fmt::format("'{}' has a comma; write one number", text));
-  return [made](const double* values) {
-    std::copy(values, values + made->values.size(), made->values.begin());
-    return made->parser.Eval();
+  return [shared](const double* values) {
+    std::unique_ptr<Compiled>& mine = shared->of_thread.local();
+    if (mine == nullptr) mine = made_from(shared->recipe);
+    std::copy(values, values + mine->values.size(), mine->values.begin());
+    return mine->parser.Eval();
   };
 }
 

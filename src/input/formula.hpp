@@ -52,7 +52,7 @@ class Formulas {
   [[nodiscard]] std::vector<std::string> variables_in(
       const std::string& text, const std::vector<std::string>& variables) const;
   /// The formula as a function of the variables' values, in their order [SI]. The function lives as
-  /// long as it is kept and works with storage of its own: one thread at a time.
+  /// long as it is kept; each thread that asks it has storage of its own.
   /// Throws FormulaError as read() does, and where a variable is also a name under let.
   [[nodiscard]] std::function<double(const double*)> compile(
       const std::string& text, const std::vector<std::string>& variables) const;
