@@ -77,6 +77,8 @@ constexpr EffectCase cases[] = {
     {"sponge", "water",
      "boundaries: {beach: {sponge: {box: {from: [-9, -9, -9], to: [9, 9, 9]}, ramp: 1, rate: 1}}}"},
     {"relaxation", "water", "effects: {relaxation: {rate: 1, until: 9 s}}"},
+    {"acceleration", "water",
+     "loads: {pull: {acceleration: [\"-0.1*x\", \"-0.1*y\", \"-0.1*z\"]}}"},
     {"gravity", "sheet", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},
     {"contact with planes", "water", "boundaries: {floor: {planes: {z: -1 m}}}"},
     {"mirror_walls", "water", "boundaries: {floor: {planes: {z: 0}}}"},

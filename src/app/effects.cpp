@@ -56,6 +56,7 @@ std::vector<Effect> make_table() {
       contacts_effect(),           //
       pressure_effect(),           //
       nodal_force_effect(),        //
+      acceleration_effect(),       //
       periodic_effect(),           // copies out what moved, adds back what ghosts collected
       mirror_walls_effect(),       // images at walls; adds to what planes measure
       prescribed_motion_effect(),  // after all forces: measures the reactions

@@ -20,6 +20,9 @@ Effect prescribed_motion_effect();
 /// loads.NAME.pressure: follower pressure on the cells of a surface.
 Effect pressure_effect();
 
+/// loads.NAME.acceleration: a force by mass that depends on place and time.
+Effect acceleration_effect();
+
 /// loads.NAME.force: a total force spread evenly over a set of nodes.
 Effect nodal_force_effect();
 

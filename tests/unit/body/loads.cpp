@@ -1,4 +1,4 @@
-// Pressure and nodal forces.
+// Pressure, nodal forces, accelerations by place.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -18,7 +18,7 @@ std::unique_ptr<World> plate_world(const std::string& load, int nx = 2, int ny =
   Draft draft;
   draft.parts = {test::plate("panel", nx, ny, 1, 1), test::particles("pool", {{0, 0, 5}})};
   return make_world("parts: {panel: {made: yes}, pool: {made: yes}}\nloads: {load: " + load + "}\n",
-                    draft, {pressure_effect(), nodal_force_effect()});
+                    draft, {pressure_effect(), nodal_force_effect(), acceleration_effect()});
 }
 
 Vec3 total_force(const Scene& scene) {
@@ -170,6 +170,56 @@ TEST_CASE("nodal force: shared evenly, in time, with its work", "[body]") {
   CHECK(ledger.entry("force", "load").value == Approx(held).epsilon(1e-2));
 }
 
+TEST_CASE("acceleration: mass times the formulas at each node, by hand", "[body]") {
+  auto world = plate_world("{acceleration: [\"-4*x\", \"t*y + z\", 3 m/s^2]}");
+  world->model().step.t = 2;
+  world->take_steps(1);
+  const Nodes& nodes = world->scene.nodes;
+  for (std::size_t i = 0; i < nodes.f.size(); ++i) {
+    const Vec3 x = xyz(nodes.x[i]) - 1e-3 * xyz(nodes.v[i]);  // where it was at the level
+    const Vec3 f = 2 * Vec3(-4 * x.x(), 2 * x.y() + x.z(), 3);
+    CHECK((xyz(nodes.f[i]) - f).norm() < 1e-14);
+  }
+  // The particle at [0, 0, 5]: 2 kg times [0, 5, 3] m/s^2.
+  CHECK(std::any_of(nodes.f.begin(), nodes.f.end(),
+                    [](const Line& f) { return xyz(f) == Vec3(0, 10, 6); }));
+}
+
+TEST_CASE("acceleration: a central field turns height into speed, at order 2", "[body]") {
+  // x = cos(3 t): the work is half the square of the speed, to the swing of the leapfrog.
+  const auto error = [](double dt) {
+    auto world = plate_world("{acceleration: [\"-9*x\", \"-9*y\", \"-9*z\"]}");
+    world->dt = dt;
+    world->take_steps(static_cast<int>(std::lround(0.4 / dt)) + 1);
+    Ledger& ledger = world->models.ledger;
+    CHECK(ledger.entry("acceleration load", "load").external);
+    const double held =
+        ledger.entry("kinetic", "panel").value + ledger.entry("kinetic", "pool").value;
+    const double exact = 0.5 * 2 * 25 * 9 * std::pow(std::sin(1.2), 2);
+    CHECK(ledger.entry("kinetic", "pool").value == Approx(exact).epsilon(10 * dt * dt));
+    return std::abs(held - ledger.entry("acceleration load", "load").value) / held;
+  };
+  const double coarse = error(4e-3);
+  const double fine = error(2e-3);
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 1e-3);
+  CHECK(coarse / fine == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("acceleration: the same bits for 1 and 3 threads", "[body]") {
+  const auto run = [](int n_threads) {
+    set_threads(n_threads);
+    auto world = plate_world("{acceleration: [\"sin(9*x + t)\", \"-y\", \"exp(x*y)\"]}", 60, 50);
+    world->take_steps(5);
+    double sum = world->models.ledger.external();
+    for (const Line& x : world->scene.nodes.x) sum = 1.1 * sum + x.x + x.z;
+    return sum;
+  };
+  const double one = run(1);
+  CHECK(run(3) == one);
+  set_threads(0);
+}
+
 TEST_CASE("loads: mistakes name their place", "[body]") {
   const auto mistakes = [](const std::string& load) {
     try {
@@ -184,4 +234,7 @@ TEST_CASE("loads: mistakes name their place", "[body]") {
   CHECK_THAT(mistakes("{pressure: {on: panel}}"), Catch::Contains("pressure.value: missing"));
   CHECK_THAT(mistakes("{force: {nodes: {part: pool}, value: [1, 0, 0]}}"),
              Catch::Contains("loads.load.force.nodes.part"));
+  CHECK_THAT(mistakes("{acceleration: [0, 0, \"1/z\"]}"),
+             Catch::Contains("case.yaml:3:") &&
+                 Catch::Contains("loads.load.acceleration: gives [0, 0, inf] at t = 0"));
 }
