@@ -24,10 +24,11 @@ struct StudyAxis {
 struct StudyReference {
   enum class Kind { finest, number, csv, formula, richardson };
   Kind kind = Kind::finest;
-  double value = 0;  ///< of Kind::number [SI]
-  std::string file;  ///< of Kind::csv: time and value in its first two columns
-  std::string text;  ///< of Kind::formula, as written
-  /// of Kind::formula: value [SI] of the history at a time [s], &t; one thread at a time
+  double value = 0;    ///< of Kind::number [SI]
+  std::string file;    ///< of Kind::csv: the time in its first column
+  std::string column;  ///< of Kind::csv; empty: the only one
+  std::string text;    ///< of Kind::formula, as written
+  /// of Kind::formula: value [SI] of the history at a time [s], &t
   std::function<double(const double*)> formula;
 };
 
@@ -41,7 +42,11 @@ struct StudyMeasure {
   double from = -std::numeric_limits<double>::infinity();  ///< window in time [s]
   double until = std::numeric_limits<double>::infinity();
   double max_shift = 0;  ///< distance: the best shift in time within this is taken out [s]
-  double scale = 0;      ///< distance: error = distance / scale; 0: the range of the reference [SI]
+  double width = 0;      ///< of the windows of largest_mean [s]
+  double period = 0;     ///< of the sine that amplitude, phase and midline are of [s]
+  double level = 0;      ///< that arrival waits for [SI]
+  /// error = difference / scale; 0: the size of the reference, of a distance the range of it [SI]
+  double scale = 0;
   std::optional<StudyReference> reference;  ///< where it is not that of the study
 };
 

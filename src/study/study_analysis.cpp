@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/units.hpp"
 #include "study/study_history.hpp"
 #include "study/study_prices.hpp"
 
@@ -118,9 +119,21 @@ TimeSeries history_of(const StudyResult& result, const StudyMeasure& measure, st
                           measure.column);
 }
 
+/// The history of a file, in SI where its header names a unit.
+TimeSeries reference_file(const StudyReference& reference) {
+  TimeSeries series = read_time_series(reference.file, reference.column);
+  try {
+    const double unit = parse_quantity("1 " + series.unit).value;
+    for (double& y : series.y) y *= unit;
+  } catch (const std::invalid_argument&) {
+    return series;  // no unit that is known here: numbers as they stand
+  }
+  return series;
+}
+
 /// The history of a file, or of a formula or number at the times of `run`, a history of the study.
 TimeSeries reference_history(const StudyReference& reference, const TimeSeries& run) {
-  if (reference.kind == StudyReference::Kind::csv) return read_time_series(reference.file, "");
+  if (reference.kind == StudyReference::Kind::csv) return reference_file(reference);
   TimeSeries series = run;
   for (std::size_t i = 0; i < series.t.size(); ++i) {
     series.y[i] = reference.kind == StudyReference::Kind::formula ? reference.formula(&series.t[i])
@@ -255,8 +268,9 @@ void measure_number(const StudyResult& result, MeasureResult& m) {
       m.reference_text = fmt::format("{:.5g} {} (extrapolated)", m.reference, m.unit);
       break;
   }
-  if (m.reference == 0) throw std::runtime_error("the reference is 0: no relative error");
-  const auto error = [&](double x) { return std::abs(x - m.reference) / std::abs(m.reference); };
+  const double scale = m.measure.scale > 0 ? m.measure.scale : std::abs(m.reference);
+  if (scale == 0) throw std::runtime_error("the reference is 0: no relative error without a scale");
+  const auto error = [&](double x) { return std::abs(x - m.reference) / scale; };
   for (StudyValue& v : m.values) {
     v.error = error(v.value);
     for (const double value : v.of_runs) v.errors_of_runs.push_back(error(value));

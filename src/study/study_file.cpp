@@ -128,6 +128,7 @@ StudyReference reference_of(const Value& v, const Keys& keys, const std::string&
   if (csv != nullptr) {
     reference.kind = StudyReference::Kind::csv;
     reference.file = beside(csv->text, folder);
+    if (const Value* column = child_of(v, "column")) reference.column = column->text;
     if (!fs::exists(reference.file)) keys.complain(*csv, "no such file");
   } else if (!number.numbers.empty()) {
     reference.kind = StudyReference::Kind::number;
@@ -143,6 +144,18 @@ StudyReference reference_of(const Value& v, const Keys& keys, const std::string&
   return reference;
 }
 
+constexpr const char* options = "width, period, level, percent, shift, scale, reference";
+
+/// What a kind of measure cannot do without; nullptr where nothing is missing.
+const char* missing_option(const StudyMeasure& m) {
+  if (m.kind.ends_with("largest_mean") && !(m.width > 0)) {
+    return "the width of the windows is missing: width: 20 ms";
+  }
+  const bool sine = m.kind == "amplitude" || m.kind == "phase" || m.kind == "midline";
+  if (sine && !(m.period > 0)) return "the period of the sine is missing: period: 2 s";
+  return nullptr;
+}
+
 /// One option of a measure. Returns false where there is no such option.
 bool set_option(const Value& option, const Keys& keys, const std::string& folder,
                 StudyMeasure& measure) {
@@ -156,6 +169,12 @@ bool set_option(const Value& option, const Keys& keys, const std::string& folder
     measure.until = number(dim::time);
   } else if (name == "shift") {
     measure.max_shift = number(dim::time);
+  } else if (name == "width") {
+    measure.width = number(dim::time);
+  } else if (name == "period") {
+    measure.period = number(dim::time);
+  } else if (name == "level") {
+    measure.level = option.numbers.empty() ? number(dim::none) : option.numbers.front();
   } else if (name == "percent") {
     measure.percent = number(dim::none);
   } else if (name == "scale") {
@@ -183,14 +202,15 @@ StudyMeasure measure_of(const Value& v, const Keys& keys, const std::string& fol
       measure.kind = option.name;
       measure.history = option.text;
     } else if (!set_option(option, keys, folder, measure)) {
-      keys.complain(option, unknown_kind(option.name) +
-                                "; options: column, from, until, percent, shift, scale, reference");
+      keys.complain(option, unknown_kind(option.name) + "; options: column, from, until, " +
+                                std::string(options));
     }
   }
   if (measure.kind.empty()) {
     keys.complain(
         v, "what is measured is missing: {peak: PROBE}; known: " + comma_list(measure_kinds()));
   }
+  if (const char* missing = missing_option(measure)) keys.complain(v, missing);
   return measure;
 }
 
@@ -256,6 +276,12 @@ void set_option(const std::string& name, const std::string& text, StudyMeasure& 
     measure.until = quantity_of(text, dim::time);
   } else if (name == "shift") {
     measure.max_shift = quantity_of(text, dim::time);
+  } else if (name == "width") {
+    measure.width = quantity_of(text, dim::time);
+  } else if (name == "period") {
+    measure.period = quantity_of(text, dim::time);
+  } else if (name == "level") {
+    measure.level = quantity_of(text, dim::none, true);
   } else if (name == "percent") {
     measure.percent = quantity_of(text, dim::none, true);
   } else if (name == "scale") {
@@ -265,8 +291,8 @@ void set_option(const std::string& name, const std::string& text, StudyMeasure& 
   } else if (name == "reference") {
     measure.reference = parse_reference(text);
   } else {
-    throw std::invalid_argument(fmt::format(
-        "unknown option '{}'; known: from, until, percent, shift, scale, name, reference", name));
+    throw std::invalid_argument(
+        fmt::format("unknown option '{}'; known: from, until, name, {}", name, options));
   }
 }
 
@@ -295,6 +321,7 @@ StudyMeasure parse_measure(const std::string& text) {
     if (equals == std::string::npos) throw std::invalid_argument("'" + option + "': " + wanted);
     set_option(option.substr(0, equals), option.substr(equals + 1), measure);
   }
+  if (const char* missing = missing_option(measure)) throw std::invalid_argument(missing);
   return measure;
 }
 

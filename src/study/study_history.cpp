@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace gannet {
@@ -96,13 +98,14 @@ TimeSeries read_time_series(const std::string& file, const std::string& column) 
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot be read");
   std::string line;
-  std::getline(stream, line);
+  std::size_t number = 1;
+  while (std::getline(stream, line) && line.starts_with('#')) ++number;
   if (line.ends_with('\r')) line.pop_back();
   const std::vector<Column> columns = header_of(line);
   const std::vector<std::size_t> picked = pick(file, columns, column);
   TimeSeries series;
   series.unit = columns[picked.front()].unit;
-  for (std::size_t number = 2; std::getline(stream, line); ++number) {
+  for (++number; std::getline(stream, line); ++number) {
     if (line.empty() || line == "\r") continue;
     const std::vector<std::string> cells = split_line(line);
     if (cells.size() != columns.size()) {
@@ -127,9 +130,11 @@ TimeSeries window_of(const TimeSeries& series, double from, double until) {
 }
 
 const std::vector<std::string>& measure_kinds() {
-  static const std::vector<std::string> kinds = {"peak",  "time_of_peak", "maximum", "minimum",
-                                                 "final", "mean",         "impulse", "percentile",
-                                                 "slope", "rms",          "distance"};
+  static const std::vector<std::string> kinds = {
+      "peak",      "time_of_peak", "maximum", "minimum",      "final",
+      "mean",      "impulse",      "slope",   "percentile",   "rms",
+      "amplitude", "phase",        "midline", "largest_mean", "time_of_largest_mean",
+      "arrival",   "distance"};
   return kinds;
 }
 
@@ -178,13 +183,103 @@ double slope_of(const TimeSeries& s) {
   return ty / tt;
 }
 
+/// Integral of y from the first time to t, y linear between samples; s.t.front() <= t <=
+/// s.t.back(). `upto`: the integral up to each sample.
+double integral_to(const TimeSeries& s, const std::vector<double>& upto, double t) {
+  const auto above = std::lower_bound(s.t.begin() + 1, s.t.end(), t);
+  const auto i = static_cast<std::size_t>(above - s.t.begin());
+  return upto[i - 1] + (t - s.t[i - 1]) * 0.5 * (s.y[i - 1] + value_of(s, t));
+}
+
+struct MeanAt {
+  double mean = unknown;
+  double time = unknown;  ///< middle of the window [s]
+};
+
+MeanAt largest_mean(const TimeSeries& s, double width) {
+  std::vector<double> upto(s.t.size(), 0);
+  for (std::size_t i = 1; i < s.t.size(); ++i) {
+    upto[i] = upto[i - 1] + 0.5 * (s.y[i - 1] + s.y[i]) * (s.t[i] - s.t[i - 1]);
+  }
+  MeanAt largest;
+  const auto look = [&](double begin, double end) {
+    if (begin < s.t.front() || end > s.t.back()) return;
+    const double mean = (integral_to(s, upto, end) - integral_to(s, upto, begin)) / width;
+    if (!(mean <= largest.mean)) largest = {mean, 0.5 * (begin + end)};
+  };
+  for (const double t : s.t) {
+    look(t, t + width);
+    look(t - width, t);
+  }
+  return largest;
+}
+
+/// m + a sin(w t) + b cos(w t) by least squares; w = 2 pi/period.
+struct SineFit {
+  double m = 0, a = 0, b = 0;
+};
+
+SineFit fit_sine(const TimeSeries& s, double period) {
+  // Rows of the normal equations: sums of (1, sin, cos) with (1, sin, cos, y).
+  double n[3][4] = {};
+  for (std::size_t i = 0; i < s.t.size(); ++i) {
+    const double angle = 2 * std::numbers::pi * s.t[i] / period;
+    const double f[4] = {1, std::sin(angle), std::cos(angle), s.y[i]};
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 4; ++c) n[r][c] += f[r] * f[c];
+    }
+  }
+  for (int p = 0; p < 3; ++p) {  // positive definite: no pivots needed
+    for (int r = 0; r < 3; ++r) {
+      if (r == p) continue;
+      const double factor = n[r][p] / n[p][p];
+      for (int c = p; c < 4; ++c) n[r][c] -= factor * n[p][c];
+    }
+  }
+  return {n[0][3] / n[0][0], n[1][3] / n[1][1], n[2][3] / n[2][2]};
+}
+
+double arrival_of(const TimeSeries& s, double level) {
+  for (std::size_t i = 0; i < s.t.size(); ++i) {
+    if (s.y[i] < level) continue;
+    if (i == 0) return s.t[0];
+    return s.t[i - 1] + (s.t[i] - s.t[i - 1]) * (level - s.y[i - 1]) / (s.y[i] - s.y[i - 1]);
+  }
+  return unknown;
+}
+
+/// The measures that take options of their own; nothing where the kind is another.
+std::optional<double> evaluate_with_options(const StudyMeasure& measure, const TimeSeries& s) {
+  const std::string& kind = measure.kind;
+  if (kind == "percentile") return percentile_of(s.y, measure.percent);
+  if (kind == "arrival") return arrival_of(s, measure.level);
+  if (kind == "largest_mean") return largest_mean(s, measure.width).mean;
+  if (kind == "time_of_largest_mean") return largest_mean(s, measure.width).time;
+  if (kind == "amplitude" || kind == "phase" || kind == "midline") {
+    const SineFit fit = fit_sine(s, measure.period);
+    if (kind == "midline") return fit.m;
+    return kind == "phase" ? std::atan2(fit.b, fit.a) : std::hypot(fit.a, fit.b);
+  }
+  return std::nullopt;
+}
+
+/// Samples that a measure of that kind cannot do without.
+std::size_t samples_for(const std::string& kind) {
+  for (const char* sine : {"amplitude", "phase", "midline"}) {
+    if (kind == sine) return 3;
+  }
+  for (const char* area : {"slope", "mean", "rms", "impulse", "largest_mean"}) {
+    if (kind == area || kind == std::string("time_of_") + area) return 2;
+  }
+  return 1;
+}
+
 }  // namespace
 
 double evaluate(const StudyMeasure& measure, const TimeSeries& series) {
   const TimeSeries s = window_of(series, measure.from, measure.until);
   const std::string& kind = measure.kind;
-  const bool needs_two = kind == "slope" || kind == "mean" || kind == "rms" || kind == "impulse";
-  if (s.t.size() < (needs_two ? 2 : 1)) {
+  if (s.t.size() < samples_for(kind)) {
     throw std::runtime_error(fmt::format("{}: too few samples in its window", measure.name));
   }
   if (kind == "peak") return s.y[index_of_peak(s.y)];
@@ -195,8 +290,8 @@ double evaluate(const StudyMeasure& measure, const TimeSeries& series) {
   if (kind == "impulse") return integral(s, 1);
   if (kind == "mean") return integral(s, 1) / (s.t.back() - s.t.front());
   if (kind == "rms") return std::sqrt(integral(s, 2) / (s.t.back() - s.t.front()));
-  if (kind == "percentile") return percentile_of(s.y, measure.percent);
   if (kind == "slope") return slope_of(s);
+  if (const auto value = evaluate_with_options(measure, s)) return *value;
   throw std::runtime_error(fmt::format("{}: '{}' is no kind of measure", measure.name, kind));
 }
 
@@ -262,7 +357,8 @@ Distance distance_of(const TimeSeries& a, const TimeSeries& b, double max_shift)
 }
 
 std::string unit_of(const StudyMeasure& measure, const std::string& unit) {
-  if (measure.kind == "time_of_peak") return "s";
+  if (measure.kind.starts_with("time_of_") || measure.kind == "arrival") return "s";
+  if (measure.kind == "phase") return "rad";
   if (unit.empty() || unit == "1" || unit == "-") {
     if (measure.kind == "impulse") return "s";
     return measure.kind == "slope" ? "1/s" : "";

@@ -16,16 +16,17 @@ struct TimeSeries {
   std::string unit;  ///< "N"; "1" for plain numbers, empty where the file does not say
 };
 
-/// Reads a history CSV: one header line, time first. column: a name of the header without its unit,
-/// or the last word of one ("z"); empty: the only column, or the length of the vector where there
-/// are three columns x, y, z. A last line without its end is left out.
-/// Throws std::runtime_error that names the file and says which columns there are.
+/// Reads a history CSV: lines that start with # are left out, then one header line, time first.
+/// column: a name of the header without its unit, or the last word of one ("z"); empty: the only
+/// column, or the length of the vector where there are three columns x, y, z. A last line without
+/// its end is left out. Throws std::runtime_error that names the file and says which columns there
+/// are.
 TimeSeries read_time_series(const std::string& file, const std::string& column);
 
 /// The part within from <= t <= until.
 TimeSeries window_of(const TimeSeries& series, double from, double until);
 
-/// peak, time_of_peak, maximum, minimum, final, mean, impulse, percentile, slope, rms, distance
+/// The words of the kinds of measure: peak, mean, impulse, ..., distance.
 const std::vector<std::string>& measure_kinds();
 
 /// The number that a measure (all kinds but distance) takes from a series [SI]:
@@ -33,7 +34,13 @@ const std::vector<std::string>& measure_kinds();
 ///   impulse: integral y dt by trapezoids; mean: impulse over the time
 ///   rms: sqrt(integral y^2 dt / time) by trapezoids
 ///   percentile: of the samples, between them linearly; slope: least squares dy/dt
-/// Throws std::runtime_error where the window holds no sample (slope, mean, rms: fewer than two).
+///   largest_mean: largest mean over measure.width, of windows that begin or end at a sample;
+///   time_of_largest_mean: the middle of that window
+///   amplitude, phase, midline: A >= 0, phi in (-pi, pi], m of the least squares of
+///   m + A sin(2 pi t/period + phi)
+///   arrival: when y first reaches measure.level from below, linear between samples; unknown where
+///   it never does
+/// Throws std::runtime_error where the window holds too few samples.
 double evaluate(const StudyMeasure& measure, const TimeSeries& series);
 
 /// y(t) between samples linearly, the end values beyond them. Needs at least one sample.

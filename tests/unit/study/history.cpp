@@ -65,6 +65,60 @@ TEST_CASE("measures: hand-made numbers", "[study]") {
   CHECK(measured("slope", s) == Approx(-0.4));
 }
 
+TEST_CASE("measures: the largest mean over a width, by hand", "[study]") {
+  // A triangle over 2 to 4 s, 3 high at 3 s, in unequal steps: over the middle second the mean is
+  // 3 - 0.25 * 3. Windows begin or end at samples: [2.5, 3.5] begins at one.
+  const TimeSeries s{{0, 2, 2.5, 3, 4, 6}, {0, 0, 1.5, 3, 0, 0}, "Pa"};
+  StudyMeasure m{.name = "m", .kind = "largest_mean", .width = 1};
+  CHECK(evaluate(m, s) == Approx(2.25).epsilon(1e-14));
+  m.kind = "time_of_largest_mean";
+  CHECK(evaluate(m, s) == Approx(3).epsilon(1e-14));
+  CHECK(unit_of(m, "Pa") == "s");
+  // The whole series: an area of 3 over 6 s. Nothing is wider.
+  m.kind = "largest_mean";
+  m.width = 6;
+  CHECK(evaluate(m, s) == Approx(0.5).epsilon(1e-14));
+  m.width = 7;
+  CHECK(std::isnan(evaluate(m, s)));
+}
+
+TEST_CASE("measures: the sine of a period that fits best", "[study]") {
+  TimeSeries s;
+  s.unit = "Pa";
+  for (int k = 0; k < 50; ++k) {
+    const double t = 0.013 * k + 0.0001 * k * k;  // uneven, no whole number of periods
+    s.t.push_back(t);
+    s.y.push_back(7 + 2 * std::sin(5 * t - 0.4));
+  }
+  StudyMeasure m{.name = "m", .kind = "amplitude", .period = 2 * M_PI / 5};
+  CHECK(evaluate(m, s) == Approx(2).epsilon(1e-10));
+  CHECK(unit_of(m, "Pa") == "Pa");
+  m.kind = "phase";
+  CHECK(evaluate(m, s) == Approx(-0.4).epsilon(1e-10));
+  CHECK(unit_of(m, "Pa") == "rad");
+  m.kind = "midline";
+  CHECK(evaluate(m, s) == Approx(7).epsilon(1e-10));
+}
+
+TEST_CASE("measures: when a level is reached", "[study]") {
+  const TimeSeries s{{0, 1, 3, 4}, {0, 2, -4, 10}, "N"};
+  StudyMeasure m{.name = "m", .kind = "arrival", .level = 0.5};
+  CHECK(evaluate(m, s) == Approx(0.25));
+  m.from = 3;
+  CHECK(evaluate(m, s) == Approx(3 + 4.5 / 14));
+  m.level = 11;
+  CHECK(std::isnan(evaluate(m, s)));
+  CHECK(unit_of(m, "N") == "s");
+}
+
+TEST_CASE("history: comments above the header are left out, and lines counted", "[study]") {
+  const TemporaryFolder folder;
+  const std::string head = "# from a book\n# two lines\ntime [s],a [kPa]\n";
+  CHECK(read_time_series(write(folder, head + "0,1\n2,4\n"), "a").y == std::vector<double>{1, 4});
+  CHECK_THROWS_WITH(read_time_series(write(folder, head + "0,1\n2,x\n"), "a"),
+                    Catch::Contains("h.csv:5: 'x' is no number"));
+}
+
 TEST_CASE("measures: a window leaves out what is outside, and must hold something", "[study]") {
   const TimeSeries s{{0, 1, 3, 4}, {0, 2, -4, 1}, "N"};
   StudyMeasure m{.name = "p", .kind = "peak", .from = 0.5, .until = 1};
