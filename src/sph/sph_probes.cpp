@@ -1,9 +1,11 @@
 // The effect `sph_probes`: gauges in the water, as measures of the scene.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "scene/surface_data.hpp"
 #include "scene/surface_point.hpp"
 #include "sph/effects.hpp"
@@ -45,9 +47,27 @@ Schema schema() {
                  .kind = Kind::reference,
                  .text = "part that is made of particles",
                  .required = true,
-                 .refers_to = "parts"}};
+                 .refers_to = "parts"},
+                {.name = "edge",
+                 .kind = Kind::flag,
+                 .text = "half a spacing is added: where the water of the foremost particle ends",
+                 .fallback = "no"}};
+  Key deviation{.name = "deviation",
+                .kind = Kind::map,
+                .text = "how far the water of a part is from a pressure that is known"};
+  deviation.keys = {{.name = "part",
+                     .kind = Kind::reference,
+                     .text = "part that is made of particles",
+                     .required = true,
+                     .refers_to = "parts"},
+                    {.name = "pressure",
+                     .kind = Kind::function,
+                     .unit = dim::pressure,
+                     .text = "what it should be at the place of each particle",
+                     .required = true,
+                     .variables = {"x", "y", "z"}}};
   Schema s;
-  for (const Key& key : {pressure, height, front}) s.push_back({"probes.*", key});
+  for (const Key& key : {pressure, height, front, deviation}) s.push_back({"probes.*", key});
   return s;
 }
 
@@ -94,8 +114,49 @@ void add_front(const Keys& gauge, Measure measure, Scene& scene) {
   }
   const int axis = gauge.word("axis")[0] - 'x';
   measure.unit = "m";
-  measure.sample = [&scene, part, axis](double* value) {
-    *value = front_of_part(scene, part, axis);
+  const double beyond = gauge.flag("edge") ? 0.5 * scene.store.get<SphState>().dx : 0;
+  measure.sample = [&scene, part, axis, beyond](double* value) {
+    *value = front_of_part(scene, part, axis) + beyond;
+  };
+  scene.measures.push_back(std::move(measure));
+}
+
+/// sqrt(mean (p_i - p(x_i))^2) over the particles of a part, and the largest |p_i - p(x_i)| [Pa].
+std::array<double, 2> deviation_of(Scene& scene, int part, const Function& pressure) {
+  struct Sum {
+    double square = 0, largest = 0, n = 0;
+  };
+  const SphState& sph = scene.store.get<SphState>();
+  const auto of_chunk = [&](Index begin, Index end) {
+    Sum sum;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      if (scene.particle_part[k] != part) continue;
+      const auto i = static_cast<std::size_t>(scene.particles.begin) + k;
+      const double d = sph.p[k] - value_at(pressure, 0, xyz(scene.nodes.x[i]));
+      sum.square += d * d;
+      sum.largest = std::max(sum.largest, std::abs(d));
+      ++sum.n;
+    }
+    return sum;
+  };
+  const Sum all =
+      parallel_reduce(scene.particles.size(), 512, Sum{}, of_chunk, [](const Sum& a, const Sum& b) {
+        return Sum{a.square + b.square, std::max(a.largest, b.largest), a.n + b.n};
+      });
+  return {std::sqrt(all.square / all.n), all.largest};
+}
+
+void add_deviation(const Keys& gauge, Measure measure, Scene& scene) {
+  const int part = scene.part_number(gauge.word("part"));
+  if (part < 0 || !scene.parts[part].is_particles()) {
+    gauge.complain("part", "'" + gauge.word("part") + "' is not made of particles");
+    return;
+  }
+  measure.unit = "Pa";
+  measure.components = {"rms", "largest"};
+  measure.sample = [&scene, part, pressure = gauge.function("pressure")](double* value) {
+    const auto found = deviation_of(scene, part, pressure);
+    std::copy(found.begin(), found.end(), value);
   };
   scene.measures.push_back(std::move(measure));
 }
@@ -149,8 +210,10 @@ void add_pressure(const Keys& gauge, Measure measure, Scene& scene) {
 
 void make_state(const Keys& root, Scene& scene) {
   using Add = void (*)(const Keys&, Measure, Scene&);
-  const std::array<std::pair<const char*, Add>, 3> kinds{
-      {{"pressure", add_pressure}, {"surface_height", add_surface}, {"front", add_front}}};
+  const std::array<std::pair<const char*, Add>, 4> kinds{{{"pressure", add_pressure},
+                                                          {"surface_height", add_surface},
+                                                          {"front", add_front},
+                                                          {"deviation", add_deviation}}};
   if (!root.has("probes")) return;
   for (const std::string& name : root.map("probes").names()) {
     const Keys probe = root.map("probes").map(name);

@@ -110,6 +110,22 @@ TEST_CASE("probes: water through a plane, the rate and the volume since the star
       Catch::Contains("pool.yaml:4:") && Catch::Contains("a normal needs a length above 0"));
 }
 
+TEST_CASE("probes: how far pressures are from a function of place", "[sph]") {
+  Pool pool(std::string(water) +
+                "parts: {pool: {sph: {material: water, spacing: 0.25}, start: hydrostatic, "
+                "fill: {box: {from: [0, 0, -1], to: [0.5, 0.5, 0]}}}}\n"
+                "probes: {none: {deviation: {part: pool, pressure: \"-1e4*z\"}}, "
+                "some: {deviation: {part: pool, pressure: \"-1e4*z - 400*x\"}}, "
+                "last: {front: {part: pool}}, edge: {front: {part: pool, edge: yes}}}",
+            3, {0, 0, -10});
+  CHECK(measured(pool.scene, "probe.none")[1] < 1e-6);
+  // x is 0.125 and 0.375 m: 50 and 150 Pa.
+  CHECK(measured(pool.scene, "probe.some")[0] == Approx(std::sqrt(12500.0)).epsilon(1e-9));
+  CHECK(measured(pool.scene, "probe.some")[1] == Approx(150).epsilon(1e-9));
+  CHECK(measured(pool.scene, "probe.last")[0] == Approx(0.375).epsilon(1e-14));
+  CHECK(measured(pool.scene, "probe.edge")[0] == Approx(0.5).epsilon(1e-14));
+}
+
 TEST_CASE("probes: a gauge finds the same particles as a look at all of them", "[sph]") {
   Pool pool(std::string(water) +
                 "parts: {pool: {sph: {material: water, spacing: 0.1}, start: hydrostatic, "
