@@ -1,4 +1,4 @@
-// A column of a CSV file as a table in time.
+// CSV files: tables with units, and a column as a table in time.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -12,10 +12,7 @@ namespace gannet {
 
 namespace {
 
-struct Column {
-  std::string name;
-  Quantity unit{1, dim::none, true};  ///< what 1 in the file is [SI]
-};
+using Column = CsvTable::Column;
 
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\"");
@@ -33,8 +30,8 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// "force z [kN]"
-Column column_of(const std::string& head, const std::string& file) {
+/// "force z [kN]"; place: file and line.
+Column column_of(const std::string& head, const std::string& place) {
   const std::size_t open = head.find('[');
   if (open == std::string::npos || head.back() != ']') return {head, {1, dim::none, true}};
   const std::string unit = head.substr(open + 1, head.size() - open - 2);
@@ -43,7 +40,7 @@ Column column_of(const std::string& head, const std::string& file) {
   try {
     column.unit = parse_quantity("1 " + unit);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}:1: '{}': {}", file, head, error.what()));
+    throw std::invalid_argument(fmt::format("{}: '{}': {}", place, head, error.what()));
   }
   return column;
 }
@@ -77,35 +74,55 @@ double number_of(const std::string& cell, const std::string& file, int line) {
 
 }  // namespace
 
-Curve read_csv_curve(const std::string& file, const std::string& column) {
+CsvTable read_csv_table(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::invalid_argument(file + ": cannot be read");
+  CsvTable table{.file = file};
   std::string line;
-  std::getline(stream, line);
-  std::vector<Column> columns;
-  for (const std::string& head : cells_of(line)) columns.push_back(column_of(head, file));
-  const std::size_t at = pick(columns, column, file);
-  const Quantity& time = columns[0].unit;
+  int number = 1;
+  while (std::getline(stream, line) && line.starts_with('#')) ++number;
+  for (const std::string& head : cells_of(line)) {
+    table.columns.push_back(column_of(head, fmt::format("{}:{}", file, number)));
+  }
+  for (++number; std::getline(stream, line); ++number) {
+    if (trimmed(line).empty()) continue;
+    table.lines.push_back(number);
+    table.cells.push_back(cells_of(line));
+  }
+  if (table.lines.empty()) throw std::invalid_argument(file + ": no line with numbers");
+  return table;
+}
+
+std::vector<double> numbers_of(const CsvTable& table, std::size_t column) {
+  std::vector<double> numbers;
+  for (std::size_t k = 0; k < table.lines.size(); ++k) {
+    const std::vector<std::string>& cells = table.cells[k];
+    if (cells.size() <= column) {
+      throw std::invalid_argument(fmt::format("{}:{}: {} values under {} columns", table.file,
+                                              table.lines[k], cells.size(), table.columns.size()));
+    }
+    numbers.push_back(number_of(cells[column], table.file, table.lines[k]) *
+                      table.columns[column].unit.value);
+  }
+  return numbers;
+}
+
+Curve read_csv_curve(const std::string& file, const std::string& column) {
+  const CsvTable table = read_csv_table(file);
+  const std::size_t at = pick(table.columns, column, file);
+  const Quantity& time = table.columns[0].unit;
   if (!time.bare && time.dimension != dim::time) {
     throw std::invalid_argument(fmt::format("{}:1: the first column is no time", file));
   }
   Curve curve;
-  curve.dimension = columns[at].unit.dimension;
-  curve.bare = columns[at].unit.bare;
-  for (int number = 2; std::getline(stream, line); ++number) {
-    if (trimmed(line).empty()) continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() <= at) {
-      throw std::invalid_argument(fmt::format("{}:{}: {} values under {} columns", file, number,
-                                              cells.size(), columns.size()));
-    }
-    const double t = number_of(cells[0], file, number) * time.value;
-    if (!curve.table.t.empty() && t <= curve.table.t.back()) {
-      throw std::invalid_argument(fmt::format("{}:{}: times do not rise", file, number));
-    }
-    curve.table.t.push_back(t);
-    curve.table.y.push_back(number_of(cells[at], file, number) * columns[at].unit.value);
+  curve.dimension = table.columns[at].unit.dimension;
+  curve.bare = table.columns[at].unit.bare;
+  curve.table = {numbers_of(table, 0), numbers_of(table, at)};
+  const std::vector<double>& t = curve.table.t;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (t[k] > t[k - 1]) continue;
+    throw std::invalid_argument(fmt::format("{}:{}: times do not rise", file, table.lines[k]));
   }
-  if (curve.table.t.empty()) throw std::invalid_argument(file + ": no line with numbers");
   return curve;
 }
 

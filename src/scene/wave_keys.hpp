@@ -6,7 +6,8 @@
 
 namespace gannet {
 
-/// sea: {level, depth, current, wave: {type, height, length, phase, direction}}
+/// sea: {level, depth, current, wave: {type, height, length, phase, direction, components,
+/// spectrum}}
 Schema sea_schema();
 
 /// What it says, with gravity from loads.gravity along the last axis of the space. Notes mistakes;

@@ -1,8 +1,17 @@
 #include "scene/wave_field.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+
+#include "../../support/temporary_folder.hpp"
+#include "input/case.hpp"
+#include "scene/wave_keys.hpp"
+#include "scene/wave_spectrum.hpp"
 
 using namespace gannet;
 
@@ -133,4 +142,119 @@ TEST_CASE("waves: a current carries them", "[scene]") {
         1e-14);
   CHECK(elevation_at(field, Vec3(1, 0, 0), 2) ==
         Approx(elevation_at(still, Vec3(0.4, 0, 0), 2)).epsilon(1e-12));
+}
+
+namespace {
+
+/// The sea of a plane case that repeats after 400 m.
+WaveField sea_of(const std::string& wave, std::string* mistakes = nullptr) {
+  Schema schema = sea_schema();
+  schema.push_back({"loads",
+                    {.name = "gravity",
+                     .kind = Kind::vector_function,
+                     .unit = dim::acceleration,
+                     .variables = {"t"}}});
+  Key periodic{.name = "periodic", .kind = Kind::map};
+  periodic.keys = {{.name = "x", .kind = Kind::numbers, .unit = dim::length}};
+  schema.push_back({"boundaries.*", periodic});
+  const auto c = read_case_text(
+      "gannet: 1\nloads: {gravity: [0, -9.81, 0]}\nboundaries: {b: {periodic: {x: [0, 400 m]}}}\n"
+      "sea: {depth: 30 m, wave: " +
+          wave + "}\n",
+      "sea.yaml", schema);
+  const WaveField field = read_wave_field(c->keys(), 2);
+  for (const std::string& m : c->mistakes.messages()) {
+    if (mistakes != nullptr) *mistakes += m + "\n";
+  }
+  return field;
+}
+
+double energy_of(const std::vector<WaveComponent>& waves) {
+  double m0 = 0;
+  for (const WaveComponent& w : waves) m0 += 0.5 * w.a * w.a;
+  return m0;
+}
+
+}  // namespace
+
+TEST_CASE("waves: the wave number of a frequency", "[scene]") {
+  for (const double k : {1e-3, 0.02, 0.3, 5.0}) {
+    CHECK(wave_number(dispersion(k, 10, g), 10, g) == Approx(k).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("waves: components of a sea state from a file", "[scene]") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() + "/sea.csv";
+  const double f = dispersion(2 * pi / 100, 30, g) / (2 * pi);
+  std::ofstream(file) << "# a record\nfrequency [Hz],amplitude [cm],phase [deg],direction [deg]\n"
+                      << fmt::format("{:.17g},20,90,0\n", f)
+                      << fmt::format("{:.17g},5,-45,180\n",
+                                     dispersion(2 * pi / 50, 30, g) / (2 * pi));
+  std::string mistakes;
+  const WaveField field = sea_of("{components: " + file + "}", &mistakes);
+  CHECK(mistakes.empty());
+  REQUIRE(field.waves.size() == 2);
+  CHECK(field.waves[0].a == Approx(0.2).epsilon(1e-14));
+  CHECK(field.waves[0].k == Approx(2 * pi / 100).epsilon(1e-12));
+  CHECK(field.waves[0].phase == Approx(pi / 2).epsilon(1e-14));
+  CHECK(field.waves[0].along.x() == 1);
+  CHECK(field.waves[1].omega == Approx(dispersion(2 * pi / 50, 30, g)).epsilon(1e-12));
+  CHECK(field.waves[1].along.x() == -1);
+
+  const auto complaint = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    std::string what;
+    sea_of("{components: " + file + "}", &what);
+    return what;
+  };
+  CHECK_THAT(complaint("speed,height\n1,2\n"),
+             Catch::Contains("sea.yaml:4:") && Catch::Contains("one column of length, period"));
+  CHECK_THAT(complaint("length [s],height\n1,2\n"), Catch::Contains("the column 'length' is a"));
+  CHECK_THAT(complaint("length [m],height [m]\n100,x\n"), Catch::Contains("sea.csv:2: 'x'"));
+  CHECK_THAT(complaint("length [m],height [m]\n100,20\n"), Catch::Contains("breaks"));
+  CHECK_THAT(complaint("length [m],height [m]\n300,1\n"), Catch::Contains("a whole number"));
+  CHECK_THAT(complaint("length [m],height [m]\n0,1\n"), Catch::Contains("greater than 0"));
+}
+
+TEST_CASE("waves: JONSWAP's spectrum, by hand", "[scene]") {
+  // At the peak: exp(-5/4) gamma, without enhancement far from it.
+  CHECK(jonswap_shape(1, 1, 3.3) == Approx(3.3 * std::exp(-1.25)).epsilon(1e-14));
+  CHECK(jonswap_shape(2, 1, 3.3) == Approx(std::exp(-1.25 / 16) / 32).epsilon(1e-12));
+  CHECK(jonswap_shape(0.93, 1, 3.3) / jonswap_shape(0.93, 1, 1) ==
+        Approx(std::pow(3.3, std::exp(-0.5))).epsilon(1e-12));
+
+  const SeaState sea{.height = 4, .period = 10, .n = 80};
+  const std::vector<WaveComponent> waves = components_of(sea, 30, g);
+  REQUIRE(waves.size() == 80);
+  CHECK(4 * std::sqrt(energy_of(waves)) == Approx(4).epsilon(1e-12));
+  const auto highest = std::max_element(waves.begin(), waves.end(),
+                                        [](const auto& a, const auto& b) { return a.a < b.a; });
+  CHECK(highest->omega == Approx(2 * pi / 10).epsilon(0.03));
+  double cosines = 0;
+  for (const WaveComponent& w : waves) {
+    CHECK((w.phase >= 0 && w.phase < 2 * pi));
+    cosines += std::cos(w.phase);
+  }
+  CHECK(std::abs(cosines) < 3 * std::sqrt(40));  // three deviations of 80 phases
+  SeaState other = sea;
+  CHECK(components_of(other, 30, g)[7].phase == waves[7].phase);
+  other.seed = 2;
+  CHECK(components_of(other, 30, g)[7].phase != waves[7].phase);
+}
+
+TEST_CASE("waves: a spectrum where the sea repeats", "[scene]") {
+  std::string mistakes;
+  const WaveField field = sea_of(
+      "{spectrum: {type: pierson_moskowitz, height: 1 m, period: 6 s, shortest: 20 m}}", &mistakes);
+  CHECK(mistakes.empty());
+  REQUIRE(field.waves.size() > 10);
+  for (const WaveComponent& w : field.waves) {
+    const double n = w.k * 400 / (2 * pi);
+    CHECK(n == Approx(std::round(n)).epsilon(1e-12));
+    CHECK(n < 20.5);
+  }
+  CHECK(energy_of(field.waves) == Approx(1.0 / 16).epsilon(1e-12));
+  sea_of("{spectrum: {height: 1 m, period: 6 s}, height: 1 m, length: 40 m}", &mistakes);
+  CHECK_THAT(mistakes, Catch::Contains("sea.wave: waves are given by height and length"));
 }
