@@ -16,8 +16,8 @@ TEST_CASE("time table: straight lines, constant outside, and exact means", "[bas
   CHECK(mean_over(table, -3, 0) == 2);
   // From 2 to 3.5: (4 + 6)/2 1 + (6 + 3)/2 0.5 = 7.25.
   CHECK(mean_over(table, 2, 3.5) == Approx(7.25 / 1.5).epsilon(1e-15));
-  CHECK(value_at({}, 7) == 1);
-  CHECK(mean_over({}, 7, 8) == 1);
+  CHECK(value_at(TimeTable{}, 7) == 1);
+  CHECK(mean_over(TimeTable{}, 7, 8) == 1);
 }
 
 TEST_CASE("time table: a step rises at its time, at once or within a ramp", "[base]") {

@@ -11,7 +11,7 @@ using namespace gannet::testing;
 
 namespace {
 
-const ElasticPlastic steel{.rho = 7800, .E = 210e9, .nu = 0.3, .sigma_y = 250e6, .H = 1e9};
+const ElasticPlastic yielding_steel{.rho = 7800, .E = 210e9, .nu = 0.3, .sigma_y = 250e6, .H = 1e9};
 
 struct Result {
   Array<Line> f, torque;
@@ -23,7 +23,7 @@ struct Result {
 Result run(int nx, int ny, int threads, Isa set, Index chunk = 64) {
   set_threads(threads);
   Sheet s = crumpled(nx, ny, 11, 0.01);
-  ShellBlock block = block_of(s, steel, {.thickness = 0.01}, chunk);
+  ShellBlock block = block_of(s, yielding_steel, {.thickness = 0.01}, chunk);
   random_motion(s, 12, 2, 20);
   Result r;
   const double dt = 5e-6;
@@ -74,7 +74,7 @@ TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
       Sheet s = crumpled(n, 1, 21, 0.01);
       random_motion(s, 22, 2, 20);
       const double dt = 5e-6;
-      ShellBlock all = block_of(s, steel, {.thickness = 0.01});
+      ShellBlock all = block_of(s, yielding_steel, {.thickness = 0.01});
       const ShellWork together = shell_pass(all, s.nodes, dt, set);
       const Array<Line> f = s.nodes.f;
       clear_forces(s.nodes);
@@ -82,7 +82,7 @@ TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
       double omega2 = 0;
       for (int e = 0; e < n; ++e) {
         const std::vector<Index> quad(s.quads.begin() + 4 * e, s.quads.begin() + 4 * e + 4);
-        ShellBlock single = make_shell_block(quad, s.nodes.x, steel, {.thickness = 0.01});
+        ShellBlock single = make_shell_block(quad, s.nodes.x, yielding_steel, {.thickness = 0.01});
         internal += shell_pass(single, s.nodes, dt, set).internal;
         omega2 = std::max(omega2, single.omega2);
         for (int k = 0; k < all.layout.n_values(); ++k) {

@@ -29,13 +29,13 @@ Schema language_of_functions() {
           {"loads", {.name = "when", .kind = Kind::formula}}};
 }
 
-std::unique_ptr<Case> read(const std::string& text, const std::string& file = "a.yaml") {
+std::unique_ptr<Case> read_functions(const std::string& text, const std::string& file = "a.yaml") {
   return read_case_text("gannet: 1\n" + text, file, language_of_functions());
 }
 
 std::string mistakes(const std::string& text) {
   try {
-    read(text);
+    read_functions(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -45,7 +45,7 @@ std::string mistakes(const std::string& text) {
 }  // namespace
 
 TEST_CASE("functions: formulas of time and place with names under let", "[input]") {
-  const auto c = read(
+  const auto c = read_functions(
       "let: {A: 20 mm, w: 3 rad/s}\n"
       "loads: {g: [\"A*w^2*sin(w*t)\", -9.81, free], p: \"2*x + 3*y^2 - t\", u: \"y\"}\n");
   const Keys loads = c->keys().map("loads");
@@ -62,7 +62,7 @@ TEST_CASE("functions: formulas of time and place with names under let", "[input]
 }
 
 TEST_CASE("functions: tables in place, as a list or a map with a factor", "[input]") {
-  const auto c = read(
+  const auto c = read_functions(
       "let: {p1: 5 bar}\n"
       "loads:\n"
       "  p: [[0 s, 0], [1 ms, p1]]\n"
@@ -71,13 +71,13 @@ TEST_CASE("functions: tables in place, as a list or a map with a factor", "[inpu
   CHECK(loads.function("p").table == TimeTable{{0, 0.001}, {0, 5e5}});
   CHECK(value_at(loads.vector_function("g"), 0.5).x() == 4);
   // A plain number is a function that does not change, and still a number.
-  const auto plain = read("loads: {p: 2 kPa, g: [0, 0, -9.81 m/s^2]}\n");
+  const auto plain = read_functions("loads: {p: 2 kPa, g: [0, 0, -9.81 m/s^2]}\n");
   CHECK(plain->keys().map("loads").number("p") == 2000);
   CHECK(plain->keys().map("loads").vector("g") == Vec3(0, 0, -9.81));
 }
 
 TEST_CASE("functions: curves by name, alone with their unit, in formulas in SI", "[input]") {
-  const auto c = read(
+  const auto c = read_functions(
       "curves: {pulse: [[0 s, 0 kPa], [10 ms, 4 kPa]], ramp: {table: [[0, 0], [1, 1]]}}\n"
       "loads: {p: pulse, g: [\"2*ramp(t - 1)\", 0, 0]}\n");
   const Keys loads = c->keys().map("loads");
@@ -91,9 +91,9 @@ TEST_CASE("functions: a column of a CSV file with its units", "[input]") {
   const Curve z = read_csv_curve((folder.path() + "/m.csv"), "z");
   CHECK(z.table == TimeTable{{0, 0.01}, {2000, 4000}});
   CHECK(z.dimension == dim::force);
-  const auto c =
-      read("curves: {f: {csv: m.csv, column: force x, factor: 10}}\nloads: {p: \"f(t)\"}\n",
-           folder.path() + "/a.yaml");
+  const auto c = read_functions(
+      "curves: {f: {csv: m.csv, column: force x, factor: 10}}\nloads: {p: \"f(t)\"}\n",
+      folder.path() + "/a.yaml");
   CHECK(value_at(c->keys().map("loads").function("p"), 0.005) == Approx(20).epsilon(1e-14));
   CHECK_THROWS_WITH(read_csv_curve((folder.path() + "/m.csv"), "q"),
                     Catch::Contains("no column 'q'") && Catch::Contains("force x, force z"));
@@ -102,7 +102,8 @@ TEST_CASE("functions: a column of a CSV file with its units", "[input]") {
 }
 
 TEST_CASE("functions: a formula whose names come from its owner", "[input]") {
-  const auto c = read("let: {limit: 5 kN}\nloads: {when: \"force_z > limit && t > 0.1\"}\n");
+  const auto c =
+      read_functions("let: {limit: 5 kN}\nloads: {when: \"force_z > limit && t > 0.1\"}\n");
   const FormulaMaker& make = c->keys().map("loads").value("when").formula;
   const auto when = make({"t", "force_z"});
   const double late[] = {0.2, 6000};
@@ -114,7 +115,7 @@ TEST_CASE("functions: a formula whose names come from its owner", "[input]") {
 }
 
 TEST_CASE("functions: the resolved case reads back to the same functions", "[input]") {
-  const auto c = read(
+  const auto c = read_functions(
       "let: {w: 3}\n"
       "loads: {p: [[0 s, 0], [1 ms, 5 bar]], g: [\"sin(w*t)\", -9.81 m/s^2, free]}\n");
   const auto again = read_case_text(c->resolved, "b.yaml", language_of_functions());

@@ -8,7 +8,7 @@ using namespace gannet;
 namespace {
 
 constexpr double dx = 0.1;
-constexpr double support = 0.26;
+constexpr double support_radius = 0.26;
 constexpr double skin = 0.03;
 
 /// Particles of a long bar, three by three across, on a lattice of spacing dx.
@@ -26,7 +26,7 @@ Array<Line> bar(int length) {
 template <class D>
 bool outdated_after(const Array<Line>& x, const D& d) {
   ListAge age;
-  start_ageing(x, support, skin, dx, age);
+  start_ageing(x, support_radius, skin, dx, age);
   measure_motion(age, [&](Index k) -> Vec3 { return d(xyz(x[k])); });
   return outdated(age);
 }
@@ -64,7 +64,7 @@ TEST_CASE("list age: bodies that were far apart are seen when they may have met"
   CHECK(approach(2.2));        // 2.1 between the nearest: they overlap
 }
 
-TEST_CASE("list age: no motion may hide a pair that came within the support", "[sph]") {
+TEST_CASE("list age: no motion may hide a pair that came within the support_radius", "[sph]") {
   // Displacements of many lengths: whenever the age says that all is well, a search over all pairs
   // finds none that is near now and was further than the list's reach before.
   const Array<Line> x = bar(60);
@@ -81,7 +81,8 @@ TEST_CASE("list age: no motion may hide a pair that came within the support", "[
       for (const Line& b : x) {
         const Vec3 before = xyz(a) - xyz(b);
         const Vec3 now = before + d(xyz(a)) - d(xyz(b));
-        if (now.norm() < support && before.norm() > support + skin) FAIL("a pair is missing");
+        if (now.norm() < support_radius && before.norm() > support_radius + skin)
+          FAIL("a pair is missing");
       }
     }
   }
