@@ -315,6 +315,7 @@ double mean_square(const TimeSeries& a, const TimeSeries& b, double shift) {
     const double t = b.t[i] + shift;
     if (t < a.t.front() || t > a.t.back()) continue;
     const double d = value_of(a, t) - b.y[i];
+    if (!std::isfinite(d)) continue;  // one of them has no value there: no water at a gauge yet
     sum += d * d;
     ++n;
   }

@@ -53,7 +53,8 @@ struct Distance {
   double range = 0;  ///< largest minus smallest b there
 };
 
-/// sqrt(mean (a(t + s) - b(t))^2) over the times t of b that lie in a, at the shift |s| <=
+/// sqrt(mean (a(t + s) - b(t))^2) over the times t of b that lie in a and where both have
+/// a value, at the shift |s| <=
 /// max_shift that makes it smallest (s = 0 where max_shift is 0). Throws std::runtime_error where
 /// fewer than two times are common.
 Distance distance_of(const TimeSeries& a, const TimeSeries& b, double max_shift);

@@ -134,6 +134,10 @@ TEST_CASE("distance: over common times, between samples linearly", "[study]") {
   CHECK(d.rms == Approx(1));
   CHECK(d.range == 99);
   CHECK_THROWS(distance_of(a, {{5, 6}, {0, 0}, ""}, 0));
+  // Where there is no value there is no difference.
+  const double none = std::nan("");
+  CHECK(distance_of({{0, 1, 2, 3}, {none, none, 5, 6}, ""}, {{0, 2, 3}, {9, 4, 5}, ""}, 0).rms ==
+        Approx(1));
 }
 
 TEST_CASE("distance: the best shift in time is found", "[study]") {
