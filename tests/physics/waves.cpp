@@ -252,3 +252,34 @@ TEST_CASE("a linear wave goes on with its height and speed", "[physics]") {
     CHECK(two.imbalance < 2e-3);
   }
 }
+
+// The case of 4 waves over 10 periods in short: one of its waves, three periods, its coarse
+// spacing.
+TEST_CASE("the case of travelling waves, in short: height, phase and mean at the gauge",
+          "[physics]") {
+  const auto s =
+      make_simulation("cases/travelling_waves/case.yaml", {"let.n=1", "let.dx=filled/7"});
+  constexpr double pi = std::numbers::pi;
+  constexpr double period = 15.29;
+  double next = 2 * period;  // the third period is read, 60 times
+  double mean = 0;
+  double in_phase = 0;
+  double ahead = 0;
+  constexpr int n = 60;
+  run_until(*s, 3 * period, [&] {
+    const double t = time_of(*s);
+    if (t < next) return;
+    next += period / n;
+    const double eta = measured(s->scene, "probe.gauge");
+    mean += eta / n;
+    in_phase += 2 * eta * std::cos(2 * pi * t / period) / n;
+    ahead -= 2 * eta * std::sin(2 * pi * t / period) / n;
+  });
+  const double height = std::hypot(in_phase, ahead) / 3.9;
+  const double phase = std::atan2(ahead, in_phase);
+  fmt::print("travelling waves in short: height {:.3f}, {:.3f} rad ahead, mean {:.2f} m\n", height,
+             phase, mean);
+  CHECK(height == Approx(1).margin(0.05));
+  CHECK(std::abs(phase) < 0.1);
+  CHECK(std::abs(mean) < 0.1 * 55 / 7);  // a tenth of a spacing
+}
