@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "base/parallel.hpp"
+#include "fe/element_blocks.hpp"
 #include "fe/gauss.hpp"
 
 namespace gannet {
@@ -48,7 +49,7 @@ struct ElementFrame {
 ElementFrame frame_of(const ShellBlock& block, Index e, std::span<const Line> x) {
   Vec3 p[4];
   for (int a = 0; a < 4; ++a) {
-    p[a] = corner(x, block.corners[static_cast<std::size_t>(32 * (e / 8) + 8 * a + e % 8)]);
+    p[a] = corner(x, corner_of(block.corners, 4, e, a));
   }
   const Vec3 n = (p[2] - p[0]).cross(p[3] - p[1]);
   ElementFrame frame;
@@ -58,18 +59,6 @@ ElementFrame frame_of(const ShellBlock& block, Index e, std::span<const Line> x)
   const Vec3 e1 = (side - side.dot(e3) * e3).normalized();
   frame.axes << e1, e3.cross(e1), e3;
   return frame;
-}
-
-/// Corners by block; the empty lanes of the last block repeat the last element.
-void fill_corners(ShellBlock& block, std::span<const Index> connectivity) {
-  block.corners.assign(static_cast<std::size_t>(block.n_blocks()) * 32, 0);
-  for (Index lane = 0; lane < 8 * block.n_blocks(); ++lane) {
-    const auto e = static_cast<std::size_t>(std::min(lane, block.n_elements - 1));
-    for (std::size_t a = 0; a < 4; ++a) {
-      block.corners[static_cast<std::size_t>(32 * (lane / 8) + lane % 8) + 8 * a] =
-          connectivity[4 * e + a];
-    }
-  }
 }
 
 /// Thickness 0 in the empty lanes makes all their forces, energies and votes vanish.
@@ -83,18 +72,6 @@ void fill_state(ShellBlock& block, std::span<const Line> x) {
     }
     block.value(e, block.layout.inverse_area()) = 1 / area;
     block.value(e, block.layout.thickness()) = e < block.n_elements ? block.section.thickness : 0.0;
-  }
-}
-
-void run_chunk(ShellBlock& block, const ShellPass& pass, Index chunk, Isa set) {
-  const Index per_chunk = block.colouring.chunk / 8;
-  const Index begin = chunk * per_chunk;
-  const Index end = std::min(block.n_blocks(), begin + per_chunk);
-  ShellSums& sums = block.sums[static_cast<std::size_t>(chunk)];
-  if (set == Isa::avx512) {
-    avx512::shell_force(pass, begin, end, sums);
-  } else {
-    avx2::shell_force(pass, begin, end, sums);
   }
 }
 
@@ -127,7 +104,7 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
   block.constants = make_constants(material, section);
   block.layout = {section.points, material.plastic() ? 4 : 3};
   block.n_elements = static_cast<Index>(connectivity.size() / 4);
-  fill_corners(block, connectivity);
+  block.corners = corners_by_block(connectivity, 4);
   fill_state(block, x);
   block.colouring = colour_chunks(connectivity, 4, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
@@ -141,8 +118,7 @@ void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
     const double mass = block.constants.nodal_mass_factor * area;
     const double alpha = std::max(t * t / 12, area / 8);
     for (int a = 0; a < 4; ++a) {
-      const auto node = static_cast<std::size_t>(
-          block.corners[static_cast<std::size_t>(32 * (e / 8) + 8 * a + e % 8)]);
+      const auto node = static_cast<std::size_t>(corner_of(block.corners, 4, e, a));
       nodes.x[node].w += mass;
       nodes.torque[node].w += alpha * mass;
     }
@@ -168,13 +144,14 @@ ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque
 
 ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
   const ShellPass pass = pass_over(block, nodes, nodes.f.data(), nodes.torque.data(), dt_old);
-  for (const std::vector<Index>& colour : block.colouring.colours) {
-    parallel_for(static_cast<Index>(colour.size()), 1, [&](Index begin, Index end) {
-      for (Index k = begin; k < end; ++k) {
-        run_chunk(block, pass, colour[static_cast<std::size_t>(k)], set);
-      }
-    });
-  }
+  for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
+    ShellSums& sums = block.sums[static_cast<std::size_t>(chunk)];
+    if (set == Isa::avx512) {
+      avx512::shell_force(pass, begin, end, sums);
+    } else {
+      avx2::shell_force(pass, begin, end, sums);
+    }
+  });
   ShellWork work;
   block.omega2 = 0;
   block.limiting = -1;

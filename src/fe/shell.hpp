@@ -9,7 +9,7 @@
 
 #include "base/array.hpp"
 #include "base/isa.hpp"
-#include "fe/colouring.hpp"
+#include "fe/element_blocks.hpp"
 #include "fe/shell_kernel.hpp"
 #include "material/elastic_plastic.hpp"
 #include "scene/scene.hpp"
@@ -46,7 +46,7 @@ struct ShellBlock {
   Index limiting = -1;          ///< the element it belongs to
   Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p over the points [-]
-  [[nodiscard]] Index n_blocks() const { return (n_elements + 7) / 8; }
+  [[nodiscard]] Index n_blocks() const { return blocks_for(n_elements); }
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
     return state[static_cast<std::size_t>(((e / 8) * layout.n_values() + k) * 8 + e % 8)];

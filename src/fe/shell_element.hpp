@@ -26,28 +26,10 @@
 // For *.isa.cpp files only.
 #pragma once
 
-#include "base/simd.hpp"
 #include "fe/shell_kernel.hpp"
+#include "fe/vec8x3.hpp"
 
 namespace gannet::GANNET_ISA_NS {
-
-struct Vec8x3 {
-  Vec8 x, y, z;
-};
-
-GANNET_INLINE Vec8x3 operator+(const Vec8x3& a, const Vec8x3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-GANNET_INLINE Vec8x3 operator-(const Vec8x3& a, const Vec8x3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-GANNET_INLINE Vec8 dot(const Vec8x3& a, const Vec8x3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-GANNET_INLINE Vec8x3 scaled(const Vec8x3& a, Vec8 s) { return {a.x * s, a.y * s, a.z * s}; }
-GANNET_INLINE Vec8x3 cross(const Vec8x3& a, const Vec8x3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Frame, gradients and hourglass geometry of eight elements.
 struct ShellGeometry {

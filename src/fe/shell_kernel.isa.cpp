@@ -8,18 +8,11 @@ namespace {
 
 /// Gathers the corners of a block: lines at base as three components.
 GANNET_INLINE void gather_corners(const double* base, const std::int32_t* corners, Vec8x3 out[4]) {
-  for (int a = 0; a < 4; ++a) {
-    Vec8 line[4];
-    gather_lines(base, corners + 8 * a, 1, line);
-    out[a] = {line[0], line[1], line[2]};
-  }
+  for (int a = 0; a < 4; ++a) out[a] = gather_corner(base, corners, a);
 }
 
 GANNET_INLINE void scatter_corners(double* base, const std::int32_t* corners, const Vec8x3 in[4]) {
-  for (int a = 0; a < 4; ++a) {
-    const Vec8 line[3] = {in[a].x, in[a].y, in[a].z};
-    scatter_add_lines(base, corners + 8 * a, 1, line);
-  }
+  for (int a = 0; a < 4; ++a) scatter_corner(base, corners, a, in[a]);
 }
 
 /// Blocks between the one at work and the one whose data is called for: long enough for memory to
