@@ -142,7 +142,7 @@ ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque
 
 }  // namespace
 
-ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
+ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
   const ShellPass pass = pass_over(block, nodes, nodes.f.data(), nodes.torque.data(), dt_old);
   for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
     ShellSums& sums = block.sums[static_cast<std::size_t>(chunk)];
@@ -152,7 +152,7 @@ ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
       avx2::shell_force(pass, begin, end, sums);
     }
   });
-  ShellWork work;
+  ElementWork work;
   block.omega2 = 0;
   block.limiting = -1;
   for (const ShellSums& s : block.sums) {

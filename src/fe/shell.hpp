@@ -10,6 +10,7 @@
 #include "base/array.hpp"
 #include "base/isa.hpp"
 #include "fe/element_blocks.hpp"
+#include "fe/element_part.hpp"
 #include "fe/shell_kernel.hpp"
 #include "material/elastic_plastic.hpp"
 #include "scene/scene.hpp"
@@ -61,13 +62,6 @@ struct ShellBlocks {
   std::deque<ShellBlock> list;
 };
 
-/// Energies that a pass added, and nothing else [J].
-struct ShellWork {
-  double internal = 0;
-  double plastic = 0;
-  double hourglass = 0;
-};
-
 /// Elements per chunk of the coloured passes.
 inline constexpr Index shell_chunk = 512;
 
@@ -88,16 +82,10 @@ void add_shell_masses(const ShellBlock& block, Nodes& nodes);
 
 /// One pass: stress to n, forces at n added to nodes.f and nodes.torque (see shell_kernel.hpp).
 /// dt_old: t(n) - t(n-1) [s]. set: instruction set. The bits depend on no number of threads.
-ShellWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set = isa());
+ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set = isa());
 
 /// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound.
 double stable_step(const ShellBlock& block);
-
-/// An element and the step that it allows.
-struct ElementStep {
-  double dt = 0;  ///< [s]
-  Index element = -1;
-};
 
 /// The n elements that allow the smallest steps in the state at hand, the smallest first, as a pass
 /// without motion finds them. Changes nothing; for a look, not for each step.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fe/effects.hpp"
+#include "fe/element_part.hpp"
 #include "fe/shell.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "scene/surface_data.hpp"
@@ -70,19 +71,8 @@ Schema schema() {
   return s;
 }
 
-/// The parts that are made of shells, in file order.
-std::vector<Keys> shell_parts(const Keys& root) {
-  std::vector<Keys> parts;
-  if (!root.has("parts")) return parts;
-  for (const std::string& name : root.map("parts").names()) {
-    const Keys part = root.map("parts").map(name);
-    if (part.has("shell")) parts.push_back(part);
-  }
-  return parts;
-}
-
 void add_parts(const Keys& root, Draft& draft) {
-  for (const Keys& part : shell_parts(root)) {
+  for (const Keys& part : parts_with(root, "shell")) {
     if (draft.dimension != 3) {
       part.complain("shell", "4-node shells need three dimensions");
       continue;
@@ -120,25 +110,13 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
   return section;
 }
 
-/// Numbers first, first + 1, ... of the elements as a tracked field of the part.
+/// Numbers of the state of a block, from `first` on.
 Field state_field(const std::string& name, const std::string& unit, ShellBlock& block, int first,
                   int components) {
-  const std::ptrdiff_t lane = sizeof(double);
-  return {.name = name,
-          .unit = unit,
-          .over = Over::cells,
-          .part = block.part,
-          .components = components,
-          .layout = {.block_stride = block.layout.n_values() * 8 * lane,
-                     .entry_stride = lane,
-                     .component_stride = 8 * lane,
-                     .lanes = 8},
-          .owner = "shell",
-          .base =
-              [&block, first, lane] {
-                return reinterpret_cast<std::byte*>(block.state.data()) + first * 8 * lane;
-              },
-          .count = [&block] { return block.n_elements; }};
+  Field field = element_field(name, unit, block.part, block.state, block.layout.n_values(), first,
+                              components, [&block] { return block.n_elements; });
+  field.owner = "shell";
+  return field;
 }
 
 /// The whole state for checkpoints; for output, what is derived from it when it is asked for.
@@ -148,29 +126,24 @@ void track(Scene& scene, ShellBlock& block) {
   thickness.vtk = "Thickness";
   thickness.checkpoint = false;
   scene.fields.push_back(std::move(thickness));
-  const auto track_shown = [&](Field field) {
-    field.part = block.part;
-    field.owner = "shell";
-    field.checkpoint = false;
-    field.resize = nullptr;
-    scene.fields.push_back(std::move(field));
-  };
   const auto n = static_cast<std::size_t>(block.n_elements);
   block.stress_shown.assign(6 * n, 0);
   Field stress = plain_field(block.name + ".stress", "Pa", "Stress", Over::cells,
                              block.stress_shown, 6, GhostRule::none);
   stress.prepare = [&scene, &block] { show_stress(block, scene.nodes.x); };
-  track_shown(std::move(stress));
+  stress.owner = "shell";
+  track_shown(scene, block.part, std::move(stress));
   if (!block.material.plastic()) return;
   block.plastic_shown.assign(n, 0);
   Field eps_p = plain_field(block.name + ".plastic_strain", "", "PlasticStrain", Over::cells,
                             block.plastic_shown, 1, GhostRule::none);
   eps_p.prepare = [&block] { show_plastic_strain(block); };
-  track_shown(std::move(eps_p));
+  eps_p.owner = "shell";
+  track_shown(scene, block.part, std::move(eps_p));
 }
 
 void state(const Keys& root, Scene& scene) {
-  for (const Keys& keys : shell_parts(root)) {
+  for (const Keys& keys : parts_with(root, "shell")) {
     const int number = scene.part_number(keys.name());
     if (number < 0) continue;
     const Part& part = scene.parts[static_cast<std::size_t>(number)];
@@ -194,31 +167,10 @@ void state(const Keys& root, Scene& scene) {
   }
 }
 
-/// "panel: element 1207 at (0.1, 0.2, 0)"
-std::string text_of_element(const Scene& scene, const ShellBlock& block, Index element) {
-  if (element < 0) return block.name;
-  const Part& part = scene.parts[static_cast<std::size_t>(block.part)];
-  const auto e = static_cast<std::size_t>(element);
-  Vec3 centre = Vec3::Zero();
-  for (std::size_t a = 0; a < 4; ++a) {
-    centre += 0.25 * xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[4 * e + a])]);
-  }
-  return fmt::format("{}: element {} at ({:.4g}, {:.4g}, {:.4g})", block.name, part.cell_id[e],
-                     centre.x(), centre.y(), centre.z());
-}
-
-std::vector<Vote> smallest_votes(const Scene& scene, const ShellBlock& block, std::size_t n) {
-  std::vector<Vote> votes;
-  for (const ElementStep& s : smallest_steps(block, scene.nodes, n)) {
-    votes.push_back({s.dt, text_of_element(scene, block, s.element)});
-  }
-  return votes;
-}
-
 /// Points through the thickness, where the case leaves them open.
 std::vector<Choice> choices(const Keys& root, Scene&) {
   std::vector<Choice> list;
-  for (const Keys& part : shell_parts(root)) {
+  for (const Keys& part : parts_with(root, "shell")) {
     const Keys shell = part.map("shell");
     if (shell.has("points")) continue;
     const bool plastic =
@@ -233,32 +185,21 @@ std::vector<Choice> choices(const Keys& root, Scene&) {
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<ShellBlocks>()) return;
   for (ShellBlock& block : scene.store.get<ShellBlocks>().list) {
-    LedgerEntry* internal = &models.ledger.entry("internal", block.name);
-    LedgerEntry* hourglass = &models.ledger.entry("hourglass", block.name);
-    LedgerEntry* plastic = nullptr;
-    if (block.material.plastic()) {
-      plastic = &models.ledger.entry("plastic", block.name);
-      plastic->within_other = true;
-    }
-    const auto pass = [&scene, &block, internal, hourglass, plastic](const Step& step) {
-      const ShellWork work = shell_pass(block, scene.nodes, step.dt_old);
-      internal->value += work.internal;
-      hourglass->value += work.hourglass;
-      if (plastic != nullptr) plastic->value += work.plastic;
+    ElementPart part{.kind = "shell",
+                     .part = block.part,
+                     .reads = {"x", "v", "omega"},
+                     .writes = {"f", "torque"},
+                     .plastic = block.material.plastic(),
+                     .hourglass = true};
+    part.pass = [&scene, &block](const Step& step) {
+      return shell_pass(block, scene.nodes, step.dt_old);
     };
-    models.of_part(scene, block.part)
-        .plan.add({.name = "shell " + block.name,
-                   .reason = asked_for_at(root.map("parts").map(block.name).where("shell")),
-                   .stage = Stage::force,
-                   .reads = {"x", "v", "omega"},
-                   .writes = {"f", "torque"},
-                   .owns = {block.name + ".state"},
-                   .run = pass,
-                   .stable_dt = [&block] { return stable_step(block); },
-                   .limited_by = [&scene,
-                                  &block] { return text_of_element(scene, block, block.limiting); },
-                   .smallest = [&scene, &block](
-                                   std::size_t n) { return smallest_votes(scene, block, n); }});
+    part.stable_dt = [&block] { return stable_step(block); };
+    part.limiting = [&block] { return block.limiting; };
+    part.smallest = [&scene, &block](std::size_t n) {
+      return smallest_steps(block, scene.nodes, n);
+    };
+    add_element_operation(root, scene, models, std::move(part));
   }
 }
 

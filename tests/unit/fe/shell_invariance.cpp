@@ -158,7 +158,7 @@ TEST_CASE("shell: forces are the transpose of the strains", "[fe]") {
     ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.05});
     random_motion(s, 7, 1, 10);
     const double dt = 1e-14;
-    const ShellWork work = shell_pass(block, s.nodes, dt, set);
+    const ElementWork work = shell_pass(block, s.nodes, dt, set);
     double power = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
       power += xyz(s.nodes.f[i]).dot(xyz(s.nodes.v[i])) +
@@ -222,7 +222,7 @@ TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {
   Sheet s = grid(1, 1, [](int i, int j) { return Vec3(0.1 * i, 0.1 * j, 0); });
   ShellBlock block = block_of(s, steel, {.thickness = 0.002});
   const PlaneStressLaw law = plane_stress_law(steel);
-  ShellWork total;
+  ElementWork total;
   PlaneStress<double> sigma{0, 0, 0};
   double eps_p = 0;
   double work = 0;
@@ -234,7 +234,7 @@ TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {
       s.nodes.v[i].x = d / dt;
       s.nodes.x[i].x += d;
     }
-    const ShellWork w = shell_pass(block, s.nodes, dt);
+    const ElementWork w = shell_pass(block, s.nodes, dt);
     total.internal += w.internal;
     total.plastic += w.plastic;
     const double e = d / (length + 0.5 * d);  // strain in the midpoint configuration

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "fe/shell.hpp"
+#include "fe_testing.hpp"
 
 namespace gannet::testing {
 
@@ -72,12 +73,6 @@ inline void clear_forces(Nodes& nodes) {
 inline ShellBlock block_of(const Sheet& s, const ElasticPlastic& material,
                            const ShellSection& section, Index chunk = shell_chunk) {
   return make_shell_block(s.quads, s.nodes.x, material, section, chunk);
-}
-
-inline std::vector<Isa> sets() {
-  std::vector<Isa> all{Isa::avx2};
-  if (isa() == Isa::avx512) all.push_back(Isa::avx512);
-  return all;
 }
 
 }  // namespace gannet::testing

@@ -16,7 +16,7 @@ const ElasticPlastic yielding_steel{.rho = 7800, .E = 210e9, .nu = 0.3, .sigma_y
 struct Result {
   Array<Line> f, torque;
   Array<double> state;
-  ShellWork work;
+  ElementWork work;
   double omega2 = 0;
 };
 
@@ -30,7 +30,7 @@ Result run(int nx, int ny, int threads, Isa set, Index chunk = 64) {
   for (int k = 0; k < 10; ++k) {
     for (std::size_t i = 0; i < s.size(); ++i) add_xyz(s.nodes.x[i], dt * xyz(s.nodes.v[i]));
     clear_forces(s.nodes);
-    const ShellWork w = shell_pass(block, s.nodes, dt, set);
+    const ElementWork w = shell_pass(block, s.nodes, dt, set);
     r.work.internal += w.internal;
     r.work.plastic += w.plastic;
     r.work.hourglass += w.hourglass;
@@ -75,7 +75,7 @@ TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
       random_motion(s, 22, 2, 20);
       const double dt = 5e-6;
       ShellBlock all = block_of(s, yielding_steel, {.thickness = 0.01});
-      const ShellWork together = shell_pass(all, s.nodes, dt, set);
+      const ElementWork together = shell_pass(all, s.nodes, dt, set);
       const Array<Line> f = s.nodes.f;
       clear_forces(s.nodes);
       double internal = 0;

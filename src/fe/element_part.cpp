@@ -1,0 +1,120 @@
+#include "fe/element_part.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/math.hpp"
+
+namespace gannet {
+
+std::string text_of_element(const Scene& scene, int part_number, Index element) {
+  const Part& part = scene.parts[static_cast<std::size_t>(part_number)];
+  if (element < 0) return part.name;
+  const auto e = static_cast<std::size_t>(element);
+  const auto n = static_cast<std::size_t>(nodes_per(part.cell));
+  Vec3 centre = Vec3::Zero();
+  for (std::size_t a = 0; a < n; ++a) {
+    centre += xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[n * e + a])]) /
+              static_cast<double>(n);
+  }
+  return fmt::format("{}: element {} at ({:.4g}, {:.4g}, {:.4g})", part.name, part.cell_id[e],
+                     centre.x(), centre.y(), centre.z());
+}
+
+std::vector<Keys> parts_with(const Keys& root, const char* kind) {
+  std::vector<Keys> parts;
+  if (!root.has("parts")) return parts;
+  for (const std::string& name : root.map("parts").names()) {
+    const Keys part = root.map("parts").map(name);
+    if (part.has(kind)) parts.push_back(part);
+  }
+  return parts;
+}
+
+Field element_field(const std::string& name, const std::string& unit, int part,
+                    Array<double>& state, int n_values, int first, int components,
+                    std::function<Index()> n_elements) {
+  const std::ptrdiff_t lane = sizeof(double);
+  return {.name = name,
+          .unit = unit,
+          .over = Over::cells,
+          .part = part,
+          .components = components,
+          .layout = {.block_stride = n_values * 8 * lane,
+                     .entry_stride = lane,
+                     .component_stride = 8 * lane,
+                     .lanes = 8},
+          .base = [&state, first,
+                   lane] { return reinterpret_cast<std::byte*>(state.data()) + first * 8 * lane; },
+          .count = std::move(n_elements)};
+}
+
+void track_shown(Scene& scene, int part, Field field) {
+  field.part = part;
+  field.checkpoint = false;
+  field.resize = nullptr;
+  scene.fields.push_back(std::move(field));
+}
+
+namespace {
+
+/// The entries of the ledger that a part has; nullptr where it has none.
+struct Entries {
+  LedgerEntry* internal = nullptr;
+  LedgerEntry* plastic = nullptr;
+  LedgerEntry* hourglass = nullptr;
+  LedgerEntry* viscous = nullptr;
+};
+
+Entries entries_of(Ledger& ledger, const ElementPart& element, const std::string& part) {
+  Entries e;
+  e.internal = &ledger.entry("internal", part);
+  if (element.hourglass) e.hourglass = &ledger.entry("hourglass", part);
+  if (element.viscous) e.viscous = &ledger.entry("bulk_viscosity", part);
+  if (element.plastic) {
+    e.plastic = &ledger.entry("plastic", part);
+    e.plastic->within_other = true;
+  }
+  return e;
+}
+
+void add(const ElementWork& work, const Entries& to) {
+  to.internal->value += work.internal;
+  if (to.plastic != nullptr) to.plastic->value += work.plastic;
+  if (to.hourglass != nullptr) to.hourglass->value += work.hourglass;
+  if (to.viscous != nullptr) to.viscous->value += work.viscous;
+}
+
+}  // namespace
+
+void add_element_operation(const Keys& root, Scene& scene, Models& models, ElementPart element) {
+  const int number = element.part;
+  const std::string name = scene.parts[static_cast<std::size_t>(number)].name;
+  const Entries entries = entries_of(models.ledger, element, name);
+  Operation operation{.name = element.kind + " " + name,
+                      .reason = asked_for_at(root.map("parts").map(name).where(element.kind)),
+                      .stage = Stage::force,
+                      .reads = std::move(element.reads),
+                      .writes = std::move(element.writes),
+                      .owns = {name + ".state"},
+                      .run = [pass = std::move(element.pass),
+                              entries](const Step& step) { add(pass(step), entries); },
+                      .stable_dt = std::move(element.stable_dt),
+                      .limited_by =
+                          [&scene, number, limiting = std::move(element.limiting)] {
+                            return text_of_element(scene, number, limiting());
+                          }};
+  if (element.smallest) {
+    operation.smallest = [&scene, number, steps = std::move(element.smallest)](std::size_t n) {
+      std::vector<Vote> votes;
+      for (const ElementStep& s : steps(n)) {
+        votes.push_back({s.dt, text_of_element(scene, number, s.element)});
+      }
+      return votes;
+    };
+  }
+  models.of_part(scene, number).plan.add(std::move(operation));
+}
+
+}  // namespace gannet
