@@ -52,6 +52,7 @@ std::vector<Effect> make_table() {
       walls_effect(),              // built around the particles; follows their passes
       sea_effect(),                // carries what fills and walls have made
       shell_effect(),              //
+      solid_effect(),              //
       plane_contact_effect(),      //
       contacts_effect(),           //
       pressure_effect(),           //

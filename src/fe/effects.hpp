@@ -10,4 +10,8 @@ namespace gannet {
 /// "materials.*".
 Effect shell_effect();
 
+/// parts.NAME.solid: {material, hourglass, bulk_viscosity, ...}: parts made of 8-node solids over
+/// the volume that the part's `shape` gives. Also brings the keys of solids under "materials.*".
+Effect solid_effect();
+
 }  // namespace gannet

@@ -19,6 +19,13 @@ PlaneStressLaw plane_stress_law(const ElasticPlastic& material) {
   return law;
 }
 
+SolidLaw solid_law(const ElasticPlastic& material) {
+  return {.bulk = material.E / (3 * (1 - 2 * material.nu)),
+          .shear = material.G(),
+          .yield = material.sigma_y,
+          .hardening = material.H};
+}
+
 Schema elastic_plastic_schema() {
   Schema s;
   const auto add = [&](Key key) { s.push_back({"materials.*", std::move(key)}); };

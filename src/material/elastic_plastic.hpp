@@ -5,6 +5,7 @@
 #include "base/keys.hpp"
 #include "base/schema.hpp"
 #include "material/plane_stress.hpp"
+#include "material/solid_stress.hpp"
 
 namespace gannet {
 
@@ -21,6 +22,9 @@ struct ElasticPlastic {
 
 /// The constants of the law in plane stress. Needs E > 0, -1 < nu < 1. Throws nothing.
 PlaneStressLaw plane_stress_law(const ElasticPlastic& material);
+
+/// The constants of the law in three dimensions. Needs E > 0, -1 < nu < 0.5. Throws nothing.
+SolidLaw solid_law(const ElasticPlastic& material);
 
 /// The keys of "materials.*" that belong to solids.
 Schema elastic_plastic_schema();

@@ -1,46 +1,15 @@
 #include "mesh/shapes.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "mesh/shape_numbers.hpp"
+#include "mesh/volume_shapes.hpp"
+
 namespace gannet {
 namespace {
-
-constexpr double most_cells = 1e8;  // beyond it somebody has mistaken a unit
-
-// The whole numbers >= 1 under `key`; nothing, and a complaint, where they are something else.
-template <std::size_t N>
-std::optional<std::array<int, N>> counts(const Keys& keys, std::string_view key) {
-  if (!keys.has(key)) return {};  // required: the reader has complained
-  const std::vector<double>& given = keys.numbers(key);
-  if (given.size() != N) {
-    keys.complain(
-        key, fmt::format("{} numbers are given; {} are wanted, one a direction", given.size(), N));
-    return {};
-  }
-  std::array<int, N> n{};
-  double cells = 1;
-  for (std::size_t k = 0; k < N; ++k) {
-    if (given[k] < 1 || given[k] > most_cells || given[k] != std::floor(given[k])) {
-      keys.complain(key, fmt::format("{:g} is not a number of elements; whole numbers from 1 on "
-                                     "are wanted",
-                                     given[k]));
-      return {};
-    }
-    n[k] = static_cast<int>(given[k]);
-    cells *= given[k];
-  }
-  if (cells > most_cells) {
-    keys.complain(
-        key, fmt::format("{:g} elements are more than the largest mesh ({:g})", cells, most_cells));
-    return {};
-  }
-  return n;
-}
 
 // The lengths > 0 under `key`, [m].
 template <std::size_t N>
@@ -108,26 +77,8 @@ SurfaceMesh box(const Keys& keys) {
   if (!n || !keys.has("from") || !keys.has("to")) return {};
   const Vec3 from = keys.vector("from");
   const Vec3 to = keys.vector("to");
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    if (to[k] > from[k]) continue;
-    keys.complain("to", fmt::format("{} = {:g} m must be greater than that of 'from', {:g} m",
-                                    "xyz"[k], to[k], from[k]));
-    return {};
-  }
+  if (!box_is_open(keys, from, to, 3)) return {};
   return box_surface(from, to, *n);
-}
-
-Key place(const std::string& name, const std::string& text, bool required = false) {
-  return {
-      .name = name, .kind = Kind::vector, .unit = dim::length, .text = text, .required = required};
-}
-
-Key elements(const std::string& text) {
-  return {.name = "elements", .kind = Kind::numbers, .text = text, .required = true};
-}
-
-Key length(const std::string& name, const std::string& text) {
-  return {.name = name, .unit = dim::length, .text = text, .required = true, .limits = positive()};
 }
 
 Key angle(const std::string& name, const std::string& text, bool required) {
@@ -243,38 +194,41 @@ std::vector<Key> shape_keys() {
                  .unit = dim::length,
                  .text = "lengths of the edges, along x (before the tilt) and y",
                  .required = true};
-  return {
+  std::vector<Key> keys{
       {.name = "plate",
        .kind = Kind::map,
        .text = "a rectangle, tilted about the y axis",
-       .keys = {size, elements("number of elements along the two edges"),
+       .keys = {size, elements_key("number of elements along the two edges"),
                 angle("tilt", "angle by which the edge at larger x is raised (deadrise)", false),
-                place("centre", "centre of the plate; the origin unless something is said"),
-                place("lowest_point",
-                      "middle of the lowest edge (of that at smaller x without a "
-                      "tilt), in place of the centre")}},
+                place_key("centre", "centre of the plate; the origin unless something is said"),
+                place_key("lowest_point",
+                          "middle of the lowest edge (of that at smaller x without a "
+                          "tilt), in place of the centre")}},
       {.name = "plane",
        .kind = Kind::map,
        .text = "a parallelogram anywhere",
-       .keys = {place("corner", "the corner where both edges begin", true),
-                place("along", "the first edge, as a vector", true),
-                place("across", "the second edge, as a vector", true),
-                elements("number of elements along the two edges")}},
+       .keys = {place_key("corner", "the corner where both edges begin", true),
+                place_key("along", "the first edge, as a vector", true),
+                place_key("across", "the second edge, as a vector", true),
+                elements_key("number of elements along the two edges")}},
       {.name = "wedge",
        .kind = Kind::map,
        .text = "two plates that meet at a keel along y",
        .keys = {angle("deadrise", "angle of both plates from the horizontal", true),
-                length("half_breadth", "horizontal distance from the keel to either outer edge"),
-                length("length", "length of the keel"),
-                elements("number of elements from keel to edge, and along the keel"),
-                place("lowest_point", "middle of the keel; the origin unless said")}},
+                length_key("half_breadth",
+                           "horizontal distance from the keel to either outer edge"),
+                length_key("length", "length of the keel"),
+                elements_key("number of elements from keel to edge, and along the keel"),
+                place_key("lowest_point", "middle of the keel; the origin unless said")}},
       {.name = "box",
        .kind = Kind::map,
        .text = "the six faces of a box, normals outwards",
-       .keys = {place("from", "corner with the smallest coordinates", true),
-                place("to", "corner with the largest coordinates", true),
-                elements("number of elements along x, y and z")}},
+       .keys = {place_key("from", "corner with the smallest coordinates", true),
+                place_key("to", "corner with the largest coordinates", true),
+                elements_key("number of elements along x, y and z")}},
   };
+  for (Key& key : volume_shape_keys()) keys.push_back(std::move(key));
+  return keys;
 }
 
 SurfaceMesh shape_surface(const Keys& shape) {
@@ -285,6 +239,10 @@ SurfaceMesh shape_surface(const Keys& shape) {
         shape.path() + (names.empty()
                             ? ": no shape is named; one of plate, plane, wedge, box is wanted"
                             : fmt::format(": {} shapes are named; a part has one", names.size())));
+    return {};
+  }
+  if (is_volume_shape(shape)) {
+    shape.complain(names[0], "is a volume; a surface is wanted: plate, plane, wedge or box");
     return {};
   }
   const Keys keys = shape.map(names[0]);

@@ -18,6 +18,10 @@ inline const std::vector<std::string> small_panel{
 inline const std::string dam_break = "cases/dam_break_2d/case.yaml";
 inline const std::vector<std::string> small_dam{"let.dx=a/60", "output.checkpoint=never"};
 
+/// A bar of 1,890 solids that yield, four chunks of them.
+inline const std::string taylor_bar = "cases/taylor_bar/case.yaml";
+inline const std::vector<std::string> small_bar{"n=3", "output.checkpoint=never"};
+
 /// A shear layer in a periodic plane, 100 x 60 particles, with viscosity and XSPH, and a count of
 /// what crosses a plane.
 inline const std::string periodic_plane = R"(gannet: 1

@@ -1,0 +1,145 @@
+#include "fe/solid.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/math.hpp"
+
+namespace gannet {
+
+namespace {
+
+SolidConstants make_constants(const ElasticPlastic& material, const SolidSection& section) {
+  SolidConstants c;
+  c.law = solid_law(material);
+  c.plastic = material.plastic();
+  c.viscous_hourglass = section.viscous_hourglass;
+  c.hourglass = section.hourglass_coefficient;
+  c.rho0 = material.rho;
+  c.smallest_ratio = section.smallest_ratio;
+  c.inverse_wave_speed = std::sqrt(material.rho / (c.law.bulk + 4.0 / 3.0 * c.law.shear));
+  c.linear_viscosity = section.linear_viscosity;
+  c.quadratic_viscosity = section.quadratic_viscosity;
+  return c;
+}
+
+}  // namespace
+
+double volume_of(const SolidBlock& block, Index e, std::span<const Line> x) {
+  // Signs of xi, eta, zeta at the corners.
+  constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  Vec3 a[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  Vec3 g[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 p = 0.125 * xyz(x[static_cast<std::size_t>(corner_of(block.corners, 8, e, k))]);
+    for (int i = 0; i < 3; ++i) {
+      a[i] += sign[k][i] * p;
+      g[i] += sign[k][(i + 1) % 3] * sign[k][(i + 2) % 3] * p;
+    }
+  }
+  const auto triple = [](const Vec3& p, const Vec3& q, const Vec3& r) { return p.dot(q.cross(r)); };
+  return 8 * (triple(a[0], a[1], a[2]) +
+              (triple(a[0], g[2], g[1]) + triple(g[2], a[1], g[0]) + triple(g[1], g[0], a[2])) / 3);
+}
+
+SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const Line> x,
+                            const ElasticPlastic& material, const SolidSection& section,
+                            Index chunk) {
+  assert(chunk > 0 && chunk % lanes == 0);
+  SolidBlock block;
+  block.material = material;
+  block.section = section;
+  block.constants = make_constants(material, section);
+  block.layout = {material.plastic()};
+  block.n_elements = static_cast<Index>(connectivity.size() / 8);
+  block.corners = corners_by_block(connectivity, 8);
+  block.state.assign(
+      static_cast<std::size_t>(blocks_for(block.n_elements) * block.layout.n_values() * lanes), 0);
+  for (Index e = 0; e < block.n_elements; ++e) {
+    const double volume = volume_of(block, e, x);
+    if (!(volume > 0)) {
+      throw std::invalid_argument("element " + std::to_string(e + 1) +
+                                  (volume < 0 ? " is inside out" : " has no volume"));
+    }
+    block.value(e, SolidLayout::inverse_volume()) = 1 / volume;
+  }
+  block.colouring = colour_chunks(connectivity, 8, chunk);
+  block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
+  return block;
+}
+
+void add_solid_masses(const SolidBlock& block, Nodes& nodes) {
+  for (Index e = 0; e < block.n_elements; ++e) {
+    const double mass = block.material.rho / (8 * block.value(e, SolidLayout::inverse_volume()));
+    for (int a = 0; a < 8; ++a) {
+      nodes.x[static_cast<std::size_t>(corner_of(block.corners, 8, e, a))].w += mass;
+    }
+  }
+}
+
+ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) {
+  const SolidPass pass{.constants = &block.constants,
+                       .layout = block.layout,
+                       .x = &nodes.x.data()->x,
+                       .v = &nodes.v.data()->x,
+                       .f = &nodes.f.data()->x,
+                       .corners = block.corners.data(),
+                       .state = block.state.data(),
+                       .dt = dt_old};
+  for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
+    SolidSums& sums = block.sums[static_cast<std::size_t>(chunk)];
+    if (set == Isa::avx512) {
+      avx512::solid_force(pass, begin, end, sums);
+    } else {
+      avx2::solid_force(pass, begin, end, sums);
+    }
+  });
+  ElementWork work;
+  block.omega2 = 0;
+  block.limiting = -1;
+  block.volume_ratio = 1;
+  block.smallest = -1;
+  for (const SolidSums& s : block.sums) {
+    work.internal += s.internal;
+    work.plastic += s.plastic;
+    work.hourglass += s.hourglass;
+    work.viscous += s.viscous;
+    if (s.omega2 > block.omega2) {
+      block.omega2 = s.omega2;
+      block.limiting = s.element;
+    }
+    if (s.volume_ratio < block.volume_ratio) {
+      block.volume_ratio = s.volume_ratio;
+      block.smallest = s.smallest;
+    }
+  }
+  return work;
+}
+
+double stable_step(const SolidBlock& block) {
+  return block.section.dt_factor * 2 / std::sqrt(block.omega2);
+}
+
+Index erode_collapsed(SolidBlock& block, std::span<const Line> x) {
+  Index n = 0;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    double& inverse_V0 = block.value(e, SolidLayout::inverse_volume());
+    if (inverse_V0 == 0) continue;
+    // What the pass saw halfway is gone by now: the smallest of the pass is taken at its word.
+    const bool seen = block.smallest == e && block.volume_ratio <= block.section.smallest_ratio;
+    if (!seen && volume_of(block, e, x) * inverse_V0 > block.section.smallest_ratio) continue;
+    inverse_V0 = 0;
+    ++n;
+  }
+  return n;
+}
+
+Symmetric<double> stress_at(const SolidBlock& block, Index e) {
+  const auto at = [&](int k) { return block.value(e, SolidLayout::stress() + k); };
+  return {at(0), at(1), at(2), at(3), at(4), at(5)};
+}
+
+}  // namespace gannet

@@ -1,0 +1,95 @@
+// A block of one-point solids: the elements of one part, their state, and one pass over them.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/array.hpp"
+#include "base/isa.hpp"
+#include "fe/element_blocks.hpp"
+#include "fe/element_part.hpp"
+#include "fe/solid_kernel.hpp"
+#include "material/elastic_plastic.hpp"
+#include "scene/scene.hpp"
+
+namespace gannet {
+
+/// What makes a volume a solid.
+struct SolidSection {
+  bool viscous_hourglass = false;       ///< else a stiffness that remembers
+  double hourglass_coefficient = 0.05;  ///< kappa, see solid_element.hpp
+  double linear_viscosity = 0.06;       ///< C2 of the bulk viscosity [-], 0: none
+  double quadratic_viscosity = 1.5;     ///< C1 [-], 0: none
+  double smallest_ratio = 0.01;         ///< V/V0 at which an element has collapsed
+  double dt_factor = 0.9;               ///< share of the stable step that is voted for
+};
+
+/// The solids of one part. Made by make_solid_block(); the state changes with every pass.
+struct SolidBlock {
+  std::string name;
+  int part = -1;  ///< number of the part in the scene; -1 where there is none
+  ElasticPlastic material;
+  SolidSection section;
+  SolidConstants constants;
+  SolidLayout layout;
+  Index n_elements = 0;
+  Array<Index> corners;  ///< 64 a block of 8: corner a of lane l at 8 a + l
+  Array<double> state;   ///< layout.n_values() * 8 a block
+  ChunkColours colouring;
+  std::vector<SolidSums> sums;  ///< one a chunk, of the last pass
+  double omega2 = 0;            ///< of the last pass [1/s^2]
+  Index limiting = -1;          ///< the element it belongs to
+  double volume_ratio = 1;      ///< smallest V/V0 of the last pass
+  Index smallest = -1;          ///< the element it belongs to; -1 where none has shrunk
+  bool erodes = false;          ///< collapsed elements leave; else they stop the run
+  Index n_eroded = 0;           ///< so far
+  /// Number k of element e.
+  [[nodiscard]] double& value(Index e, int k) {
+    return state[static_cast<std::size_t>((e / lanes * layout.n_values() + k) * lanes + e % lanes)];
+  }
+  [[nodiscard]] double value(Index e, int k) const {
+    return state[static_cast<std::size_t>((e / lanes * layout.n_values() + k) * lanes + e % lanes)];
+  }
+};
+
+/// All solids of a scene (scene.store.get<SolidBlocks>()); addresses never change.
+struct SolidBlocks {
+  std::deque<SolidBlock> list;
+};
+
+/// Elements per chunk of the coloured passes.
+inline constexpr Index solid_chunk = 512;
+
+/// Sets a block up, stress-free in the positions at hand.
+/// connectivity: 8 node indices an element, in the order of VTK. x: positions of the nodes [m].
+/// Throws std::invalid_argument that names the element where one has no volume (or a negative one).
+SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const Line> x,
+                            const ElasticPlastic& material, const SolidSection& section,
+                            Index chunk = solid_chunk);
+
+/// Volume of element e in the positions at hand [m^3]: exact for the trilinear map.
+double volume_of(const SolidBlock& block, Index e, std::span<const Line> x);
+
+/// Adds rho V0/8 to the mass of each corner of each element.
+void add_solid_masses(const SolidBlock& block, Nodes& nodes);
+
+/// One pass: stress to n, forces at n added to nodes.f (see solid_kernel.hpp). dt_old: t(n) -
+/// t(n-1) [s]. set: instruction set. The bits depend on no number of threads.
+ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set = isa());
+
+/// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound, the
+/// damping of the bulk viscosity in it.
+double stable_step(const SolidBlock& block);
+
+/// Takes out of the block the elements that have collapsed (V/V0 at or below smallest_ratio in the
+/// positions at hand, or halfway to them): they exert nothing any more, their nodes keep their
+/// mass. The pass that saw them collapse has cleared their stress; the work done on them stays
+/// where it was counted. Returns how many. Throws nothing.
+Index erode_collapsed(SolidBlock& block, std::span<const Line> x);
+
+/// Stress of element e: xx, yy, zz, xy, yz, xz [Pa].
+Symmetric<double> stress_at(const SolidBlock& block, Index e);
+
+}  // namespace gannet

@@ -1,0 +1,233 @@
+// Solids as a part of a case: keys, drafts, state and operations.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/error.hpp"
+#include "fe/effects.hpp"
+#include "fe/element_part.hpp"
+#include "fe/solid.hpp"
+#include "mesh/mesh_keys.hpp"
+#include "mesh/volume_shapes.hpp"
+
+namespace gannet {
+
+namespace {
+
+std::vector<Key> solid_keys() {
+  const std::vector<Key> hourglass{
+      {.name = "type",
+       .kind = Kind::choice,
+       .text = "stiffness: an elastic force that remembers; viscous: a damping force; unless said "
+               "viscous where the solid may yield",
+       .choices = {"stiffness", "viscous"}},
+      {.name = "coefficient",
+       .text = "strength of the hourglass control over the stiffness of the element",
+       .fallback = "0.05",
+       .limits = between(0, 0.3)}};
+  const std::vector<Key> viscosity{{.name = "linear",
+                                    .text = "linear coefficient of the bulk viscosity",
+                                    .fallback = "0.06",
+                                    .limits = between(0, 1)},
+                                   {.name = "quadratic",
+                                    .text = "quadratic coefficient of the bulk viscosity",
+                                    .fallback = "1.5",
+                                    .limits = between(0, 10)}};
+  return {{.name = "material",
+           .kind = Kind::reference,
+           .text = "solid that the part is made of",
+           .required = true,
+           .refers_to = "materials"},
+          {.name = "formulation",
+           .kind = Kind::choice,
+           .text = "element",
+           .fallback = "one_point",
+           .choices = {"one_point"}},
+          {.name = "hourglass",
+           .kind = Kind::map,
+           .text = "control of the modes that one point of integration does not see",
+           .keys = hourglass},
+          {.name = "bulk_viscosity",
+           .kind = Kind::map,
+           .text = "viscous pressure that carries shocks over a few elements",
+           .keys = viscosity},
+          {.name = "collapse",
+           .kind = Kind::choice,
+           .text = "what happens where an element has shrunk to nothing or turned inside out",
+           .fallback = "stop",
+           .choices = {"stop", "erode"}},
+          {.name = "collapse_ratio",
+           .text = "volume over volume at the start at which an element has collapsed",
+           .fallback = "0.01",
+           .limits = {.lowest = 0, .highest = 1, .lowest_open = true, .highest_open = true}},
+          {.name = "dt_factor",
+           .text = "share of the stable step of the elements that is used",
+           .fallback = "0.9",
+           .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
+}
+
+Schema schema() {
+  Schema s = elastic_plastic_schema();
+  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
+  s.push_back({"parts.*",
+               {.name = "solid",
+                .kind = Kind::map,
+                .text = "the part is made of solid elements",
+                .keys = solid_keys()}});
+  s.push_back({"parts.*", initial_velocity_key()});
+  return s;
+}
+
+void add_parts(const Keys& root, Draft& draft) {
+  for (const Keys& part : parts_with(root, "solid")) {
+    if (draft.dimension != 3) {
+      part.complain("solid", "8-node solids need three dimensions");
+      continue;
+    }
+    const VolumeMesh mesh = volume_mesh(part, draft.dimension);
+    if (mesh.empty()) continue;  // the mesh has complained
+    PartDraft p;
+    p.name = part.name();
+    p.kind = "solid";
+    p.material = part.map("solid").word("material");
+    p.where = part.where();
+    p.cell = Cell::hexahedron;
+    p.points = mesh.points;
+    p.connectivity = mesh.cells;
+    p.velocity = initial_velocity(part, p.points);
+    draft.parts.push_back(std::move(p));
+  }
+}
+
+/// Unless said: viscous where the solid may yield, since an elastic force does not flow with it.
+bool resists_viscously(const Keys& solid, const ElasticPlastic& material) {
+  if (solid.has("hourglass") && solid.map("hourglass").has("type")) {
+    return solid.map("hourglass").word("type") == "viscous";
+  }
+  return material.plastic();
+}
+
+SolidSection read_section(const Keys& solid, const ElasticPlastic& material) {
+  SolidSection section;
+  section.viscous_hourglass = resists_viscously(solid, material);
+  if (solid.has("hourglass")) {
+    const Keys hourglass = solid.map("hourglass");
+    section.hourglass_coefficient =
+        hourglass.number_or("coefficient", section.hourglass_coefficient);
+  }
+  if (solid.has("bulk_viscosity")) {
+    const Keys viscosity = solid.map("bulk_viscosity");
+    section.linear_viscosity = viscosity.number_or("linear", section.linear_viscosity);
+    section.quadratic_viscosity = viscosity.number_or("quadratic", section.quadratic_viscosity);
+  }
+  section.smallest_ratio = solid.number_or("collapse_ratio", section.smallest_ratio);
+  section.dt_factor = solid.number_or("dt_factor", section.dt_factor);
+  return section;
+}
+
+/// The whole state for checkpoints; for output, stress and plastic strain.
+void track(Scene& scene, SolidBlock& block) {
+  const auto field = [&](const char* name, const char* unit, const char* vtk, int first, int n) {
+    Field f =
+        element_field(block.name + name, unit, block.part, block.state, block.layout.n_values(),
+                      first, n, [&block] { return block.n_elements; });
+    f.owner = "solid";
+    f.vtk = vtk;
+    return f;
+  };
+  scene.fields.push_back(field(".state", "", "", 0, block.layout.n_values()));
+  track_shown(scene, block.part, field(".stress", "Pa", "Stress", SolidLayout::stress(), 6));
+  if (block.layout.plastic) {
+    track_shown(scene, block.part,
+                field(".plastic_strain", "", "PlasticStrain", SolidLayout::plastic_strain(), 1));
+  }
+}
+
+void state(const Keys& root, Scene& scene) {
+  for (const Keys& keys : parts_with(root, "solid")) {
+    const int number = scene.part_number(keys.name());
+    if (number < 0) continue;
+    const Part& part = scene.parts[static_cast<std::size_t>(number)];
+    const ElasticPlastic material = read_elastic_plastic(root.map("materials").map(part.material));
+    const Keys solid = keys.map("solid");
+    auto& list = scene.store.get<SolidBlocks>().list;
+    try {
+      list.push_back(make_solid_block(part.connectivity, scene.nodes.x, material,
+                                      read_section(solid, material)));
+    } catch (const std::invalid_argument& e) {
+      keys.complain("solid", e.what());
+      continue;
+    }
+    SolidBlock& block = list.back();
+    block.erodes = solid.has("collapse") && solid.word("collapse") == "erode";
+    block.name = part.name;
+    block.part = number;
+    add_solid_masses(block, scene.nodes);
+    track(scene, block);
+  }
+}
+
+/// Stops the run at an element that has collapsed, with its name.
+[[noreturn]] void stop_at_collapsed(const Scene& scene, const SolidBlock& block, const Step& step) {
+  throw RunError(RunFailure{
+      fmt::format("an element has collapsed: its volume is {:.3g} of that at the start",
+                  block.volume_ratio),
+      text_of_element(scene, block.part, block.smallest),
+      fmt::format("at t = {:.6g} s, step {}; the limit is parts.{}.solid.collapse_ratio = {:g}",
+                  step.t, step.n, block.name, block.section.smallest_ratio),
+      "let such elements go (collapse: erode), take a finer mesh where it is crushed, or look for "
+      "a "
+      "load or contact that is too stiff"});
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!scene.store.has<SolidBlocks>()) return;
+  for (SolidBlock& block : scene.store.get<SolidBlocks>().list) {
+    ElementPart part{.kind = "solid",
+                     .part = block.part,
+                     .plastic = block.material.plastic(),
+                     .hourglass = true,
+                     .viscous = true};
+    part.pass = [&scene, &block](const Step& step) {
+      const ElementWork work = solid_pass(block, scene.nodes, step.dt_old);
+      if (block.volume_ratio <= block.section.smallest_ratio) {
+        if (!block.erodes) stop_at_collapsed(scene, block, step);
+        block.n_eroded += erode_collapsed(block, scene.nodes.x);
+      }
+      return work;
+    };
+    part.stable_dt = [&block] { return stable_step(block); };
+    part.limiting = [&block] { return block.limiting; };
+    add_element_operation(root, scene, models, std::move(part));
+  }
+}
+
+/// Hourglass control, where the case leaves it open.
+std::vector<Choice> choices(const Keys& root, Scene&) {
+  std::vector<Choice> list;
+  for (const Keys& part : parts_with(root, "solid")) {
+    const Keys solid = part.map("solid");
+    if (solid.has("hourglass") && solid.map("hourglass").has("type")) continue;
+    const std::string name = solid.word("material");
+    const bool plastic = read_elastic_plastic(root.map("materials").map(name)).plastic();
+    list.push_back({solid.path() + ".hourglass.type", plastic ? "viscous" : "stiffness",
+                    fmt::format("viscous where the material may yield, else stiffness; '{}' {}",
+                                name, plastic ? "may" : "may not")});
+  }
+  return list;
+}
+
+}  // namespace
+
+Effect solid_effect() {
+  return {.name = "solid",
+          .schema = schema,
+          .parts = add_parts,
+          .state = state,
+          .operations = operations,
+          .choices = choices};
+}
+
+}  // namespace gannet

@@ -1,0 +1,211 @@
+// The eight-node solid with one point of integration, eight elements at a time (Flanagan &
+// Belytschko 1981, Int. J. Numer. Methods Eng. 17, 679-706), written in the modes of the trilinear
+// map.
+//
+// A field f over the element is, but for its mean, a combination of the seven patterns xi, eta,
+// zeta, eta zeta, zeta xi, xi eta, xi eta zeta of the corners (each +-1), with the coefficients
+//   a1, a2, a3 (linear), g1, g2, g3, g4 (hourglass):  f_mode = 1/8 sum_I pattern_I f_I.
+// With a_k and g_k the coefficients of the positions, the volume is exactly
+//   V = 8 ([a1 a2 a3] + ([a1 g3 g2] + [g3 a2 g1] + [g2 g1 a3])/3),   [a b c] = a . (b x c)
+// and its derivative by each coefficient, D_mode, is a sum of cross products (D of g4 is 0). The
+// mean of a gradient over the element, exact for any shape, and the forces that are its transpose:
+//   L = 1/V sum_mode v_mode D_mode^T,   F_mode = -sigma D_mode,   f_I = 1/8 sum_mode pattern_I
+//   F_mode
+//
+// Hourglass patterns are what a linear field leaves of g1 ... g4:
+//   q_k = v_gk - L g_k,   Q_k(n) = R Q_k(n-1) + k_h q_k dt,   k_h = 8 kappa (lambda + 2 mu) tr G/V
+// with the Gram matrix G = 1/8 sum_mode D_mode D_mode^T (equal to sum_I B_I B_I^T): kappa is the
+// stiffness over the largest that the element has, Flanagan & Belytschko's coefficient. A field
+// that is linear in space, a rotation above all, is not resisted, in any shape.
+//
+// Stress and Q turn with the element by Hughes and Winget's rotation of the midpoint spin, which is
+// exact for a rotation about an axis that keeps its direction (1980, Int. J. Numer. Methods Eng.
+// 15, 1862-1867).
+//
+// For *.isa.cpp files only.
+#pragma once
+
+#include "fe/solid_kernel.hpp"
+#include "fe/vec8x3.hpp"
+
+namespace gannet::GANNET_ISA_NS {
+
+/// Coefficients of the seven patterns of a vector field over eight elements.
+struct SolidModes {
+  Vec8x3 a[3];
+  Vec8x3 g[4];
+};
+
+/// Coefficients from the values at the corners. Corners as VTK counts them: 0-3 around the face
+/// zeta = -1 (counter-clockwise seen from above), 4-7 above them.
+GANNET_INLINE SolidModes modes_of(const Vec8x3 f[8]) {
+  Vec8x3 p[4];
+  Vec8x3 m[4];
+  for (int k = 0; k < 4; ++k) {
+    p[k] = f[k] + f[k + 4];
+    m[k] = f[k + 4] - f[k];
+  }
+  const Vec8 eighth(0.125);
+  const auto pattern_xi = [&](const Vec8x3* s) {
+    return scaled((s[1] - s[0]) + (s[2] - s[3]), eighth);
+  };
+  const auto pattern_eta = [&](const Vec8x3* s) {
+    return scaled((s[3] - s[0]) + (s[2] - s[1]), eighth);
+  };
+  const auto pattern_xi_eta = [&](const Vec8x3* s) {
+    return scaled((s[0] - s[1]) + (s[2] - s[3]), eighth);
+  };
+  SolidModes c;
+  c.a[0] = pattern_xi(p);
+  c.a[1] = pattern_eta(p);
+  c.a[2] = scaled((m[0] + m[1]) + (m[2] + m[3]), eighth);
+  c.g[0] = pattern_eta(m);
+  c.g[1] = pattern_xi(m);
+  c.g[2] = pattern_xi_eta(p);
+  c.g[3] = pattern_xi_eta(m);
+  return c;
+}
+
+/// The transpose of modes_of(): what forces on the coefficients are at the corners.
+GANNET_INLINE void corners_of(const SolidModes& F, Vec8x3 f[8]) {
+  const Vec8 eighth(0.125);
+  SolidModes s;
+  for (int k = 0; k < 3; ++k) s.a[k] = scaled(F.a[k], eighth);
+  for (int k = 0; k < 4; ++k) s.g[k] = scaled(F.g[k], eighth);
+  // p: even in zeta, m: odd in it; both at the corners (-, -), (+, -), (+, +), (-, +).
+  const Vec8x3 sum = s.a[0] + s.a[1];
+  const Vec8x3 gap = s.a[0] - s.a[1];
+  const Vec8x3 p[4] = {s.g[2] - sum, gap - s.g[2], s.g[2] + sum, -(gap + s.g[2])};
+  const Vec8x3 odd_sum = s.g[1] + s.g[0];
+  const Vec8x3 odd_gap = s.g[1] - s.g[0];
+  const Vec8x3 even = s.a[2] + s.g[3];
+  const Vec8x3 odd = s.a[2] - s.g[3];
+  const Vec8x3 m[4] = {even - odd_sum, odd + odd_gap, even + odd_sum, odd - odd_gap};
+  for (int k = 0; k < 4; ++k) {
+    f[k] = p[k] - m[k];
+    f[k + 4] = p[k] + m[k];
+  }
+}
+
+/// Volume of eight elements and its derivatives by the coefficients of the positions.
+struct SolidGeometry {
+  Vec8 volume;
+  Vec8x3 a[3];  ///< dV/da [m^2]
+  Vec8x3 g[3];  ///< dV/dg1 ... dV/dg3 [m^2]
+};
+
+GANNET_INLINE SolidGeometry solid_geometry(const SolidModes& x) {
+  const Vec8 eight(8.0);
+  const Vec8 third(8.0 / 3.0);
+  SolidGeometry G;
+  const Vec8x3 a23 = scaled(cross(x.a[1], x.a[2]), eight);
+  G.a[0] = a23 + scaled(cross(x.g[2], x.g[1]), third);
+  G.a[1] = scaled(cross(x.a[2], x.a[0]), eight) + scaled(cross(x.g[0], x.g[2]), third);
+  G.a[2] = scaled(cross(x.a[0], x.a[1]), eight) + scaled(cross(x.g[1], x.g[0]), third);
+  G.g[0] = scaled(cross(x.g[2], x.a[1]) + cross(x.a[2], x.g[1]), third);
+  G.g[1] = scaled(cross(x.a[0], x.g[2]) + cross(x.g[0], x.a[2]), third);
+  G.g[2] = scaled(cross(x.g[1], x.a[0]) + cross(x.a[1], x.g[0]), third);
+  // [g3 a2 g1] and [g2 g1 a3] are each linear in g1, so V = a1 . D_a1 + the two that hold no a1.
+  G.volume = dot(x.a[0], G.a[0]) + dot(x.g[0], G.g[0]);
+  return G;
+}
+
+/// A tensor of nine components; row i, column j is d v_i/d x_j.
+struct Tensor {
+  Vec8x3 row[3];
+};
+
+/// Mean gradient of the field with coefficients v, times `scale`.
+GANNET_INLINE Tensor mean_gradient(const SolidGeometry& G, const SolidModes& v, Vec8 scale) {
+  const auto row = [&](auto component) {
+    Vec8x3 sum = scaled(G.a[0], component(v.a[0]));
+    for (int k = 1; k < 3; ++k) sum = sum + scaled(G.a[k], component(v.a[k]));
+    for (int k = 0; k < 3; ++k) sum = sum + scaled(G.g[k], component(v.g[k]));
+    return scaled(sum, scale);
+  };
+  return {{row([](const Vec8x3& a) { return a.x; }), row([](const Vec8x3& a) { return a.y; }),
+           row([](const Vec8x3& a) { return a.z; })}};
+}
+
+GANNET_INLINE Vec8x3 times(const Tensor& t, const Vec8x3& a) {
+  return {dot(t.row[0], a), dot(t.row[1], a), dot(t.row[2], a)};
+}
+
+GANNET_INLINE Symmetric<Vec8> symmetric_part(const Tensor& t) {
+  const Vec8 half(0.5);
+  return {t.row[0].x,
+          t.row[1].y,
+          t.row[2].z,
+          half * (t.row[0].y + t.row[1].x),
+          half * (t.row[1].z + t.row[2].y),
+          half * (t.row[2].x + t.row[0].z)};
+}
+
+/// Rotation of a step from the gradient of its displacement at the midpoint,
+///   R = (I - W/2)^-1 (I + W/2),  W = (L - L^T)/2
+/// (Hughes & Winget 1980), by Cayley's formula: with w the axial vector of W, s = 1/(1 + w.w/4),
+///   R = I + s (W + W^2/2).
+GANNET_INLINE Tensor rotation_of(const Tensor& L) {
+  const Vec8 half(0.5);
+  const Vec8x3 w{half * (L.row[2].y - L.row[1].z), half * (L.row[0].z - L.row[2].x),
+                 half * (L.row[1].x - L.row[0].y)};
+  const Vec8 w2 = dot(w, w);
+  const Vec8 s = reciprocal(Vec8(1.0) + Vec8(0.25) * w2);
+  const Vec8 h = half * s;
+  // W^2 = w w^T - w.w I
+  const Vec8x3 hw = scaled(w, h);
+  const Vec8x3 sw = scaled(w, s);
+  const Vec8 one = Vec8(1.0) - h * w2;
+  const Vec8 xy = hw.x * w.y;
+  const Vec8 yz = hw.y * w.z;
+  const Vec8 zx = hw.z * w.x;
+  return {{{one + hw.x * w.x, xy - sw.z, zx + sw.y},
+           {xy + sw.z, one + hw.y * w.y, yz - sw.x},
+           {zx - sw.y, yz + sw.x, one + hw.z * w.z}}};
+}
+
+/// R s R^T.
+GANNET_INLINE Symmetric<Vec8> rotated(const Tensor& R, const Symmetric<Vec8>& s) {
+  const Vec8x3 columns[3] = {times(R, {s.xx, s.xy, s.zx}), times(R, {s.xy, s.yy, s.yz}),
+                             times(R, {s.zx, s.yz, s.zz})};
+  // Row i of R s, its product with row j of R.
+  const Vec8x3 x{columns[0].x, columns[1].x, columns[2].x};
+  const Vec8x3 y{columns[0].y, columns[1].y, columns[2].y};
+  const Vec8x3 z{columns[0].z, columns[1].z, columns[2].z};
+  return {dot(x, R.row[0]), dot(y, R.row[1]), dot(z, R.row[2]),
+          dot(x, R.row[1]), dot(y, R.row[2]), dot(z, R.row[0])};
+}
+
+/// The trace of the Gram matrix sum_I B_I B_I^T and a bound of its largest eigenvalue that is sharp
+/// for a cube and for a flat element: mean + sqrt(2/3) |deviator|.
+struct GramBound {
+  Vec8 trace;
+  Vec8 largest;
+};
+
+GANNET_INLINE GramBound gram_bound(const SolidGeometry& G) {
+  Vec8 xx(0.0);
+  Vec8 yy(0.0);
+  Vec8 zz(0.0);
+  Vec8 xy(0.0);
+  Vec8 yz(0.0);
+  Vec8 zx(0.0);
+  for (int k = 0; k < 6; ++k) {
+    const Vec8x3& D = k < 3 ? G.a[k] : G.g[k - 3];
+    xx += D.x * D.x;
+    yy += D.y * D.y;
+    zz += D.z * D.z;
+    xy += D.x * D.y;
+    yz += D.y * D.z;
+    zx += D.z * D.x;
+  }
+  const Vec8 eighth(0.125);
+  const Vec8 trace = xx + yy + zz;
+  const Vec8 d2 = xx * xx + yy * yy + zz * zz + Vec8(2.0) * (xy * xy + yz * yz + zx * zx) -
+                  Vec8(1.0 / 3.0) * trace * trace;
+  const Vec8 deviator = sqrt(max(d2, Vec8(0.0)));
+  return {eighth * trace,
+          eighth * (Vec8(1.0 / 3.0) * trace + Vec8(0.81649658092772603) * deviator)};
+}
+
+}  // namespace gannet::GANNET_ISA_NS

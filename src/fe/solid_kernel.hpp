@@ -1,0 +1,75 @@
+// The kernel of one-point solids as the rest of the program sees it: plain data in, forces and sums
+// out. It is compiled once per instruction set (solid_kernel.isa.cpp); solid.hpp is the way to call
+// it.
+#pragma once
+
+#include <cstdint>
+
+#include "material/solid_stress.hpp"
+
+namespace gannet {
+
+/// What the elements of one block have in common.
+struct SolidConstants {
+  SolidLaw law;
+  bool plastic = false;
+  bool viscous_hourglass = false;
+  double hourglass = 0.05;           ///< coefficient, see solid_element.hpp
+  double inverse_wave_speed = 0;     ///< 1/c, c^2 = (lambda + 2 mu)/rho0 [s/m]
+  double rho0 = 0;                   ///< [kg/m^3]
+  double smallest_ratio = 0.01;      ///< V/V0 at which an element has collapsed: it exerts nothing
+  double linear_viscosity = 0.06;    ///< C2 of the bulk viscosity [-]
+  double quadratic_viscosity = 1.2;  ///< C1 [-]
+};
+
+/// Where the numbers of an element stand in its block: number k of lane l is at
+/// state[(block * n_values + k) * 8 + l].
+struct SolidLayout {
+  bool plastic = false;
+  /// sigma_xx, yy, zz, xy, yz, zx [Pa]
+  [[nodiscard]] static int stress() { return 0; }
+  /// Q of the four hourglass patterns, x, y, z each [N]
+  [[nodiscard]] static int hourglass() { return 6; }
+  [[nodiscard]] static int viscous_pressure() { return 18; }  ///< q [Pa]
+  /// 1/V0 [1/m^3]; 0 in empty lanes and eroded elements
+  [[nodiscard]] static int inverse_volume() { return 19; }
+  [[nodiscard]] static int plastic_strain() { return 20; }  ///< eps_p [-]; plastic only
+  [[nodiscard]] int n_values() const { return plastic ? 21 : 20; }
+};
+
+/// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
+struct SolidPass {
+  const SolidConstants* constants = nullptr;
+  SolidLayout layout;
+  const double* x = nullptr;              ///< lines: position at n [m]
+  const double* v = nullptr;              ///< lines: velocity at n-1/2 [m/s]
+  double* f = nullptr;                    ///< lines: forces are added [N]
+  const std::int32_t* corners = nullptr;  ///< 64 a block: corner a of lane l at 8 a + l
+  double* state = nullptr;
+  double dt = 0;  ///< t(n) - t(n-1) [s]
+};
+
+/// What a pass adds up over its elements.
+struct SolidSums {
+  double internal = 0;         ///< [J], trapezoid of stress over the strain increment
+  double plastic = 0;          ///< [J], part of it that plastic flow took
+  double hourglass = 0;        ///< [J]
+  double viscous = 0;          ///< [J], bulk viscosity
+  double omega2 = 0;           ///< largest bound of an element's squared frequency, damped [1/s^2]
+  std::int32_t element = -1;   ///< whose it is: 8 block + lane
+  double volume_ratio = 1;     ///< smallest V/V0, at n and halfway to it
+  std::int32_t smallest = -1;  ///< whose it is
+};
+
+/// One fused pass over blocks [begin, end): strain increment from v(n-1/2) in the midpoint
+/// configuration x(n) - v dt/2, stress to n, forces at the geometry of n added to f.
+/// Needs valid node indices in every lane, arrays aligned to 64 bytes. Throws nothing. The element:
+/// solid_element.hpp.
+namespace avx2 {
+void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
+}
+namespace avx512 {
+void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
+}
+
+}  // namespace gannet

@@ -1,0 +1,94 @@
+// Whole runs of solids: the Taylor bar from its file, a bar that rings, elements that collapse.
+#include <algorithm>
+#include <numbers>
+
+#include "fe/solid.hpp"
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+TEST_CASE("physics: the Taylor bar ends as long and as wide as it should", "[physics]") {
+  // Converged axisymmetric solution: 21.415 mm long, 7.2054 mm at the foot (reference.csv).
+  const auto reference = read_table("cases/taylor_bar/reference.csv").front();
+  double worst_energy = 0;
+  const auto s = make_simulation("cases/taylor_bar/case.yaml", {"n=3"});
+  run_until(*s, 80e-6, [&] { worst_energy = std::max(worst_energy, energy_error(*s)); });
+  const double length = 32.4 + 1e3 * measured(s->scene, "probe.rear", 2);
+  const double foot = 3.2 + 1e3 * measured(s->scene, "probe.foot", 0);
+  WARN(fmt::format("length {:.3f} mm ({:+.2f} %), foot {:.3f} mm ({:+.2f} %); energy error {:.1e}",
+                   length, 100 * (length / reference[0] - 1), foot, 100 * (foot / reference[1] - 1),
+                   worst_energy));
+  CHECK(length == Approx(reference[0]).epsilon(0.01));
+  CHECK(foot == Approx(reference[1]).epsilon(0.06));  // 0.9 % at n = 6, see the README
+  CHECK(worst_energy < 1e-3);
+}
+
+TEST_CASE("physics: a bar of solids rings at its frequency, with order 2", "[physics]") {
+  // Free at one end, held at the other: f = c/(4 L), c^2 = E/rho with nu = 0. Its velocity at the
+  // start is the first mode, so the end swings as a sine.
+  const auto period_of = [](int n) {
+    const auto s = make_simulation_of_text(fmt::format(
+        "gannet: 1\n"
+        "materials: {{bar: {{density: 1000, young: 1 MPa, poisson: 0}}}}\n"
+        "parts: {{bar: {{solid: {{material: bar, bulk_viscosity: {{linear: 0, quadratic: 0}}}}, "
+        "shape: {{block: {{from: [0, 0, 0], to: [1 m, 0.1 m, 0.1 m], elements: [{}, 1, 1]}}}}, "
+        "initial_velocity: [\"1e-4*sin(pi*x/2)\", 0, 0]}}}}\n"
+        "boundaries: {{end: {{nodes: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, of: bar}}, "
+        "fix: [x]}}}}\n"
+        "probes: {{tip: {{displacement: {{node: {{nearest: [1 m, 0, 0], of: bar}}}}}}}}\n"
+        "output: {{until: 1 s}}\n",
+        n));
+    std::vector<double> zeros;
+    Curve u;
+    run_until(*s, 0.51, [&] {
+      const double now = measured(s->scene, "probe.tip", 0);
+      if (!u.y.empty() && u.y.back() * now < 0) {
+        zeros.push_back(u.t.back() + (time_of(*s) - u.t.back()) * u.y.back() / (u.y.back() - now));
+      }
+      u.add(time_of(*s), now);
+    });
+    return 2 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+  };
+  const double exact = 4 / std::sqrt(1e3);  // 4 L/c
+  const double e4 = std::abs(period_of(4) / exact - 1);
+  const double e8 = std::abs(period_of(8) / exact - 1);
+  const double order = std::log2(e4 / e8);
+  WARN(fmt::format("period off by {:.2e} and {:.2e} with 4 and 8 elements, order {:.2f}", e4, e8,
+                   order));
+  CHECK(e8 < 0.01);
+  CHECK(order > 1.8);
+}
+
+namespace {
+
+/// Two cubes on a floor; the upper face is driven down faster than they can give way.
+std::string crushed(const char* collapse) {
+  return fmt::format(
+      "gannet: 1\n"
+      "materials: {{foam: {{density: 1000, young: 1 MPa, poisson: 0.3}}}}\n"
+      "parts: {{block: {{solid: {{material: foam, collapse: {}, collapse_ratio: 0.2}}, shape: "
+      "{{block: {{from: [0, 0, 0], to: [0.1 m, 0.1 m, 0.2 m], elements: [1, 1, 2]}}}}}}}}\n"
+      "boundaries:\n"
+      "  floor: {{nodes: {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}, of: block}}, fix: [x, "
+      "y, "
+      "z]}}\n"
+      "  press: {{nodes: {{plane: {{point: [0, 0, 0.2 m], normal: [0, 0, 1]}}, of: block}}, "
+      "velocity: [0, 0, -100 m/s]}}\n"
+      "effects: {{guards: off}}\n"
+      "output: {{until: 10 ms}}\n",
+      collapse);
+}
+
+}  // namespace
+
+TEST_CASE("physics: a solid that is crushed stops the run, or leaves, and nothing is NaN",
+          "[physics]") {
+  const auto stops = make_simulation_of_text(crushed("stop"));
+  CHECK_THROWS_WITH(run_until(*stops, 10e-3, [] {}),
+                    Catch::Contains("an element has collapsed") && Catch::Contains("element"));
+  const auto erodes = make_simulation_of_text(crushed("erode"));
+  run_until(*erodes, 4e-3, [] {});
+  CHECK(erodes->scene.store.get<SolidBlocks>().list.front().n_eroded > 0);
+  for (const Line& x : erodes->scene.nodes.x) CHECK(xyz(x).allFinite());
+}

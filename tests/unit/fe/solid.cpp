@@ -1,0 +1,257 @@
+// The one-point solid: patch test, hand-made volumes and hourglass forces, momentum, objectivity.
+#include "fe/solid.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "fe_testing.hpp"
+#include "mesh/volume_shapes.hpp"
+
+using namespace gannet;
+using namespace gannet::testing;
+
+namespace {
+
+const ElasticPlastic soft{.rho = 1000, .E = 1e6, .nu = 0.25};
+const SolidSection inviscid{.linear_viscosity = 0, .quadratic_viscosity = 0};
+
+/// n x n x n cubes of 0.1 m, inner points moved at random by up to noise.
+Solid lattice(int n, double noise, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  return bricks({n, n, n}, [&](int i, int j, int k) {
+    const bool inner = i % n != 0 && j % n != 0 && k % n != 0;
+    const double s = inner || n == 1 ? noise : 0;
+    return Vec3(0.1 * i + s * u(random), 0.1 * j + s * u(random), 0.1 * k + s * u(random));
+  });
+}
+
+void linear_motion(Nodes& nodes, const Mat3& L) {
+  for (std::size_t i = 0; i < nodes.x.size(); ++i) set_xyz(nodes.v[i], L * xyz(nodes.x[i]));
+}
+
+}  // namespace
+
+TEST_CASE("solid: the volume of a warped element is that of its tetrahedra", "[fe]") {
+  // The trilinear volume is the mean of the two ways to split each face, so the mean of the two
+  // polyhedra whose warped faces are cut along one or the other diagonal.
+  const Solid s = lattice(1, 0.03, 5);
+  const SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, {});
+  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  double volume = 0;
+  const auto p = [&](int a) { return xyz(s.nodes.x[static_cast<std::size_t>(s.cells[a])]); };
+  const auto cone = [&](int a, int b, int c) { return p(a).dot(p(b).cross(p(c))) / 6; };
+  for (const auto& f : faces) {
+    volume += 0.5 * (cone(f[0], f[1], f[2]) + cone(f[0], f[2], f[3]) + cone(f[0], f[1], f[3]) +
+                     cone(f[1], f[2], f[3]));
+  }
+  CHECK(volume_of(block, 0, s.nodes.x) == Approx(volume).epsilon(1e-13));
+}
+
+TEST_CASE("solid: a rod of the shapes has the volume of its polygon and no element inside out",
+          "[fe]") {
+  const VolumeMesh mesh = rod_volume({1, 0, 0}, {1, 3, 4}, 0.5, {4, 3, 5});
+  REQUIRE(mesh.cells.size() == 8 * (16 + 3 * 16) * 5);
+  const Solid s = solid_of(mesh.points, mesh.cells);
+  const SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, {});
+  double volume = 0;
+  for (Index e = 0; e < block.n_elements; ++e) volume += volume_of(block, e, s.nodes.x);
+  // A regular polygon of 16 corners on the circle, times the length 5.
+  CHECK(volume == Approx(5 * 8 * 0.25 * std::sin(std::numbers::pi / 8)).epsilon(1e-12));
+}
+
+TEST_CASE("solid: patch test on a distorted mesh", "[fe]") {
+  const double dt = 1e-12;  // the midpoint is the given shape to 1e-15
+  Mat3 L;
+  L << 1e-3, 2e-3, -1e-3, 0, -2e-3, 3e-3, 4e-3, 1e-3, 2e-3;
+  for (const Isa set : sets()) {
+    Solid s = lattice(3, 0.02);
+    SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, inviscid);
+    linear_motion(s.nodes, L);
+    solid_pass(block, s.nodes, dt, set);
+    // lambda = mu = 4e5: sigma = 4e5 tr(L) + 8e5 sym(L)
+    const double lambda_part = 4e5 * L.trace();
+    for (Index e = 0; e < block.n_elements; ++e) {
+      const Symmetric<double> sigma = stress_at(block, e);
+      CHECK(sigma.xx / dt == Approx(lambda_part + 8e5 * L(0, 0)).epsilon(1e-10));
+      CHECK(sigma.yy / dt == Approx(lambda_part + 8e5 * L(1, 1)).epsilon(1e-10));
+      CHECK(sigma.zz / dt == Approx(lambda_part + 8e5 * L(2, 2)).epsilon(1e-10));
+      CHECK(sigma.xy / dt == Approx(4e5 * (L(0, 1) + L(1, 0))).epsilon(1e-10));
+      CHECK(sigma.yz / dt == Approx(4e5 * (L(1, 2) + L(2, 1))).epsilon(1e-10));
+      CHECK(sigma.zx / dt == Approx(4e5 * (L(2, 0) + L(0, 2))).epsilon(1e-10));
+    }
+    // Inner nodes are in equilibrium; 1000 Pa x 0.01 m^2 is the scale.
+    for (std::size_t i = 0; i < s.nodes.x.size(); ++i) {
+      const Vec3 x = xyz(s.nodes.x[i]);
+      const bool inner = (x.array() > 0.05).all() && (x.array() < 0.25).all();
+      if (inner) CHECK(xyz(s.nodes.f[i]).norm() / dt < 1e-10 * 10);
+    }
+  }
+}
+
+TEST_CASE("solid: hourglass stiffness of a cube by hand", "[fe]") {
+  // Side a = 0.1: sum B.B = 1.5 a^4, V = a^3, so k_h = 8 kappa (lambda + 2 mu) 1.5 a and a corner
+  // gets k_h q/8 with q = v dt, the coefficient of the pattern.
+  const double dt = 1e-9;
+  for (const Isa set : sets()) {
+    for (int mode = 0; mode < 4; ++mode) {
+      Solid s = lattice(1, 0);
+      SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, inviscid);
+      const auto pattern = [&](std::size_t i) {
+        const Vec3 at = xyz(s.nodes.x[i]) / 0.05 - Vec3::Ones();
+        const double p[4] = {at.y() * at.z(), at.z() * at.x(), at.x() * at.y(),
+                             at.x() * at.y() * at.z()};
+        return p[mode];
+      };
+      for (std::size_t i = 0; i < 8; ++i) s.nodes.v[i].y = pattern(i);
+      const ElementWork work = solid_pass(block, s.nodes, dt, set);
+      const double k_h = 8 * 0.05 * 1.2e6 * 1.5 * 0.1;
+      for (std::size_t i = 0; i < 8; ++i) {
+        CHECK(s.nodes.f[i].y == Approx(-k_h * dt / 8 * pattern(i)).epsilon(1e-6));
+        CHECK(std::abs(s.nodes.f[i].x) < 1e-6 * k_h * dt);
+      }
+      CHECK(work.hourglass == Approx(0.5 * k_h * dt * dt).epsilon(1e-6));
+      CHECK(std::abs(work.internal) < 1e-9 * work.hourglass);
+    }
+  }
+}
+
+TEST_CASE("solid: forces keep momentum and angular momentum, and are the gradient of the work",
+          "[fe]") {
+  for (const Isa set : sets()) {
+    Solid s = lattice(3, 0.02);
+    SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, {});
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> u(-1, 1);
+    for (Line& v : s.nodes.v) set_xyz(v, 10 * Vec3(u(random), u(random), u(random)));
+    const double dt = 1e-5;
+    solid_pass(block, s.nodes, dt, set);
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+    double scale = 0;
+    for (std::size_t i = 0; i < s.nodes.x.size(); ++i) {
+      force += xyz(s.nodes.f[i]);
+      moment += xyz(s.nodes.x[i]).cross(xyz(s.nodes.f[i]));
+      scale += xyz(s.nodes.f[i]).norm();
+    }
+    CHECK(force.norm() < 1e-13 * scale);
+    CHECK(moment.norm() < 1e-13 * scale);
+    // Steps so small that nothing moves: the work is -f . v dt.
+    const double tiny = 1e-14;
+    solid_pass(block, s.nodes, tiny, set);
+    for (Line& f : s.nodes.f) f = {};
+    const ElementWork work = solid_pass(block, s.nodes, tiny, set);
+    double power = 0;
+    for (std::size_t i = 0; i < s.nodes.x.size(); ++i) {
+      power -= xyz(s.nodes.f[i]).dot(xyz(s.nodes.v[i]));
+    }
+    CHECK((work.internal + work.hourglass + work.viscous) / tiny == Approx(power).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("solid: yields on the surface of von Mises", "[fe]") {
+  const ElasticPlastic metal{.rho = 1000, .E = 1e6, .nu = 0.25, .sigma_y = 500, .H = 1e4};
+  Solid s = lattice(1, 0);
+  SolidBlock block = make_solid_block(s.cells, s.nodes.x, metal, inviscid);
+  // Simple shear: tau = G gamma up to sigma_y/sqrt(3), then hardening.
+  Mat3 L = Mat3::Zero();
+  L(0, 1) = 1;
+  linear_motion(s.nodes, L);
+  const double gamma = 2e-3;
+  ElementWork work;
+  for (int k = 0; k < 100; ++k) {
+    const ElementWork w = solid_pass(block, s.nodes, gamma / 100);
+    work.internal += w.internal;
+    work.plastic += w.plastic;
+  }
+  // G gamma - 3 G eps_p/sqrt(3)... : sqrt(3) tau = sigma_y + H eps_p, tau = G (gamma - sqrt(3)
+  // eps_p)
+  const double G = 4e5;
+  const double eps_p = (std::sqrt(3.0) * G * gamma - 500) / (3 * G + 1e4);
+  CHECK(stress_at(block, 0).xy == Approx((500 + 1e4 * eps_p) / std::sqrt(3.0)).epsilon(1e-3));
+  CHECK(block.value(0, SolidLayout::plastic_strain()) == Approx(eps_p).epsilon(1e-3));
+  CHECK(work.plastic == Approx(1e-3 * eps_p * (500 + 0.5e4 * eps_p)).epsilon(1e-3));
+  const double tau = G * (gamma - std::sqrt(3.0) * eps_p);
+  CHECK(work.internal == Approx(work.plastic + 1e-3 * 0.5 * tau * tau / G).epsilon(1e-3));
+}
+
+TEST_CASE("solid: a stressed element that is turned keeps its stress", "[fe]") {
+  // Chords turn by theta exactly: the midpoint spin is 2 tan(theta/2)/dt.
+  for (const int steps : {100, 1000}) {
+    Solid s = lattice(1, 0.02, 3);
+    SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, inviscid);
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> u(-1, 1);
+    for (Line& v : s.nodes.v) set_xyz(v, Vec3(u(random), u(random), u(random)));
+    solid_pass(block, s.nodes, 1e-4);
+    const Symmetric<double> before = stress_at(block, 0);
+    double Q2 = 0;
+    for (int k = 6; k < 18; ++k) Q2 += block.value(0, k) * block.value(0, k);
+    const Vec3 axis = Vec3(1, 2, 2) / 3;
+    const double theta = 2 * std::numbers::pi / steps;
+    const Mat3 R = Eigen::AngleAxisd(theta, axis).toRotationMatrix();
+    const double dt = 1e-3;
+    ElementWork work;
+    for (int k = 0; k < 10 * steps; ++k) {
+      for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3 x = xyz(s.nodes.x[i]);
+        set_xyz(s.nodes.v[i], (R * x - x) / dt);
+        set_xyz(s.nodes.x[i], R * x);
+      }
+      const ElementWork w = solid_pass(block, s.nodes, dt);
+      work.internal += w.internal;
+      work.hourglass += w.hourglass;
+    }
+    const Symmetric<double> after = stress_at(block, 0);
+    const double scale = std::sqrt(contraction(before, before));
+    CHECK(std::abs(after.xx - before.xx) < 1e-9 * scale);
+    CHECK(std::abs(after.yz - before.yz) < 1e-9 * scale);
+    CHECK(std::abs(after.zx - before.zx) < 1e-9 * scale);
+    double after_Q2 = 0;
+    for (int k = 6; k < 18; ++k) after_Q2 += block.value(0, k) * block.value(0, k);
+    CHECK(after_Q2 == Approx(Q2).epsilon(1e-9));
+    CHECK(std::abs(work.internal + work.hourglass) < 1e-9 * scale * 1e-3);
+  }
+}
+
+TEST_CASE("solid: the bound of the frequency of a cube and of a slab", "[fe]") {
+  // A cube of side a: 8 (a/2)/(rho a^3 a^3) ... by hand, omega^2 = 8 g 3 K/(M V), g = a^4/2.
+  Solid s = lattice(1, 0);
+  SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft,
+                                      {.hourglass_coefficient = 0,
+                                       .linear_viscosity = 0,
+                                       .quadratic_viscosity = 0,
+                                       .dt_factor = 1});
+  solid_pass(block, s.nodes, 0);
+  const double K = 1e6 / 1.5;
+  CHECK(block.omega2 == Approx(4 * 3 * K / (1000 * 0.01)).epsilon(1e-9));
+  // A slab 100 times thinner than wide: the thickness over the speed of sound.
+  Solid slab = bricks({1, 1, 1}, [](int i, int j, int k) { return Vec3(i, j, 0.01 * k); });
+  SolidBlock thin = make_solid_block(slab.cells, slab.nodes.x, soft,
+                                     {.hourglass_coefficient = 0,
+                                      .linear_viscosity = 0,
+                                      .quadratic_viscosity = 0,
+                                      .dt_factor = 1});
+  solid_pass(thin, slab.nodes, 0);
+  CHECK(stable_step(thin) == Approx(0.01 / std::sqrt(1.2e6 / 1000)).epsilon(1e-3));
+}
+
+TEST_CASE("solid: the same bits for any number of threads", "[fe]") {
+  const auto forces = [](int n_threads) {
+    set_threads(n_threads);
+    Solid s = lattice(12, 0.02);
+    SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, {}, 64);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> u(-1, 1);
+    for (Line& v : s.nodes.v) set_xyz(v, Vec3(u(random), u(random), u(random)));
+    const ElementWork work = solid_pass(block, s.nodes, 1e-5);
+    std::vector<double> out{work.internal, work.hourglass, work.viscous, block.omega2};
+    for (const Line& f : s.nodes.f) out.insert(out.end(), {f.x, f.y, f.z});
+    set_threads(0);
+    return out;
+  };
+  const std::vector<double> one = forces(1);
+  for (const int n : {2, 3, 5}) CHECK(forces(n) == one);
+}
