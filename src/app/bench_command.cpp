@@ -10,6 +10,7 @@
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
 #include "fe/shell.hpp"
+#include "fe/solid.hpp"
 #include "search/cluster_list.hpp"
 #include "search/spatial_sort.hpp"
 #include "sph/pair_pass.hpp"
@@ -133,9 +134,41 @@ BenchResult bench_shell(int n) {
   return r;
 }
 
+/// A block of n x n x n solids of 20 mm, elastic-plastic, moving.
+BenchResult bench_solid(int n) {
+  const std::string text = fmt::format(
+      "gannet: 1\n"
+      "materials: {{metal: {{card: al_6061_t6}}}}\n"
+      "parts: {{bulk: {{solid: {{material: metal}}, shape: {{block: {{from: [0 m, 0 m, 0 m], to: "
+      "[{0} "
+      "m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}\n"
+      "output: {{until: 1 s}}\n",
+      0.02 * n, n);
+  const auto simulation = make_simulation_of_text(text);
+  Scene& scene = simulation->scene;
+  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
+    const Line& x = scene.nodes.x[i];
+    scene.nodes.v[i].z = std::sin(5 * x.x) * std::cos(5 * x.y) * std::cos(3 * x.z);
+  }
+  for (int k = 0; k < 3; ++k) advance(simulation->models);
+  SolidBlock& block = scene.store.get<SolidBlocks>().list.front();
+  const double dt = simulation->models.list.front().step.dt;
+  const double seconds = median_seconds(9, [&] { solid_pass(block, scene.nodes, dt); });
+  BenchResult r;
+  r.size = block.n_elements;
+  r.median_seconds = seconds;
+  r.rate = block.n_elements / seconds;
+  r.unit = "element-steps/s";
+  r.bytes_per_item =
+      8.0 * static_cast<double>(block.state.size()) / static_cast<double>(block.n_elements);
+  return r;
+}
+
 std::vector<Benchmark> all_benchmarks() {
   return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
           {"fe.shell.pass.400k", [] { return bench_shell(632); }},
+          {"fe.solid.pass.50k", [] { return bench_solid(37); }},
+          {"fe.solid.pass.400k", [] { return bench_solid(74); }},
           {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
           {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
           {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
