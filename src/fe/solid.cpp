@@ -15,7 +15,6 @@ SolidConstants make_constants(const ElasticPlastic& material, const SolidSection
   SolidConstants c;
   c.law = solid_law(material);
   c.plastic = material.plastic();
-  c.viscous_hourglass = section.viscous_hourglass;
   c.hourglass = section.hourglass_coefficient;
   c.rho0 = material.rho;
   c.smallest_ratio = section.smallest_ratio;
@@ -53,7 +52,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.material = material;
   block.section = section;
   block.constants = make_constants(material, section);
-  block.layout = {material.plastic()};
+  block.layout = {material.plastic(), !section.viscous_hourglass};
   block.n_elements = static_cast<Index>(connectivity.size() / 8);
   block.corners = corners_by_block(connectivity, 8);
   block.state.assign(

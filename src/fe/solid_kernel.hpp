@@ -13,7 +13,6 @@ namespace gannet {
 struct SolidConstants {
   SolidLaw law;
   bool plastic = false;
-  bool viscous_hourglass = false;
   double hourglass = 0.05;           ///< coefficient, see solid_element.hpp
   double inverse_wave_speed = 0;     ///< 1/c, c^2 = (lambda + 2 mu)/rho0 [s/m]
   double rho0 = 0;                   ///< [kg/m^3]
@@ -26,15 +25,16 @@ struct SolidConstants {
 /// state[(block * n_values + k) * 8 + l].
 struct SolidLayout {
   bool plastic = false;
+  bool remembers = true;  ///< hourglass forces are kept: control by stiffness
   /// sigma_xx, yy, zz, xy, yz, zx [Pa]
   [[nodiscard]] static int stress() { return 0; }
-  /// Q of the four hourglass patterns, x, y, z each [N]
-  [[nodiscard]] static int hourglass() { return 6; }
-  [[nodiscard]] static int viscous_pressure() { return 18; }  ///< q [Pa]
+  [[nodiscard]] static int viscous_pressure() { return 6; }  ///< q [Pa]
   /// 1/V0 [1/m^3]; 0 in empty lanes and eroded elements
-  [[nodiscard]] static int inverse_volume() { return 19; }
-  [[nodiscard]] static int plastic_strain() { return 20; }  ///< eps_p [-]; plastic only
-  [[nodiscard]] int n_values() const { return plastic ? 21 : 20; }
+  [[nodiscard]] static int inverse_volume() { return 7; }
+  [[nodiscard]] static int plastic_strain() { return 8; }  ///< eps_p [-]; plastic only
+  /// Q of the four hourglass patterns, x, y, z each [N]; where they are remembered
+  [[nodiscard]] int hourglass() const { return plastic ? 9 : 8; }
+  [[nodiscard]] int n_values() const { return hourglass() + (remembers ? 12 : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.

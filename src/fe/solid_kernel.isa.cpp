@@ -94,24 +94,35 @@ GANNET_INLINE BulkViscosity bulk_viscosity(const SolidConstants& c, Vec8 trace_e
   return {rho * length * rate * (speed + linear), zeta};
 }
 
-/// Resists the hourglass patterns: Q to n in `state`, returned in Q. Viscous form: the force that
-/// the stiffness would build up while a wave crosses the element. Returns the work [J].
-GANNET_INLINE Vec8 solid_hourglass(const SolidConstants& c, double* state, const SolidModes& x_half,
-                                   const SolidModes& v, const Tensor& L, const Tensor& R, Vec8 k_h,
-                                   double dt, Vec8 length, Vec8x3 Q[4]) {
-  const Vec8 viscous = k_h * length * Vec8(dt > 0 ? c.inverse_wave_speed / dt : 0.0);
+/// Resists the hourglass patterns by stiffness: Q to n in `state`, returned in Q. Returns the work
+/// [J].
+GANNET_INLINE Vec8 hourglass_stiffness(double* state, const Vec8x3 q[4], const Tensor& R, Vec8 k_h,
+                                       Vec8x3 Q[4]) {
   Vec8 twice_work(0.0);
   for (int k = 0; k < 4; ++k) {
     double* p = state + 24 * k;
     const Vec8x3 old{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
-    const Vec8x3 q = scaled(v.g[k], Vec8(dt)) - times(L, x_half.g[k]);
-    Q[k] = c.viscous_hourglass ? scaled(q, viscous) : times(R, old) + scaled(q, k_h);
+    Q[k] = times(R, old) + scaled(q[k], k_h);
     Q[k].x.store(p);
     Q[k].y.store(p + 8);
     Q[k].z.store(p + 16);
-    twice_work += dot(old, q) + dot(Q[k], q);
+    twice_work += dot(old, q[k]) + dot(Q[k], q[k]);
   }
   return Vec8(0.5) * twice_work;
+}
+
+/// Resists them by viscosity: the force that the stiffness k_h would build up while a wave crosses
+/// `length`, Q = k_h (l/c) q/dt. Nothing is remembered, so the work is Q . q of the step that led
+/// here: more than the trapezoid by a term of second order in the change of q. Returns it [J].
+GANNET_INLINE Vec8 hourglass_viscosity(const SolidConstants& c, const Vec8x3 q[4], Vec8 k_h,
+                                       double dt, Vec8 length, Vec8x3 Q[4]) {
+  const Vec8 viscous = k_h * length * Vec8(dt > 0 ? c.inverse_wave_speed / dt : 0.0);
+  Vec8 work(0.0);
+  for (int k = 0; k < 4; ++k) {
+    Q[k] = scaled(q[k], viscous);
+    work += dot(Q[k], q[k]);
+  }
+  return work;
 }
 
 /// Forces on the coefficients: -(sigma - sum Q_k g_k^T / V) D_mode, and -Q_k on each hourglass one.
@@ -221,9 +232,15 @@ GANNET_INLINE void solid_block(const SolidPass& pass, std::int32_t block, SolidL
 
   const Vec8 k_h = Vec8(8.0 * c.hourglass * (c.law.bulk + 4.0 / 3.0 * c.law.shear)) * gram.trace *
                    inverse_volume;
+  Vec8x3 q[4];
   Vec8x3 Q[4];
-  sums.hourglass += of_alive(solid_hourglass(c, state + 8 * SolidLayout::hourglass(), x_half, v, L,
-                                             R, k_h, pass.dt, length, Q));
+  for (int k = 0; k < 4; ++k) q[k] = scaled(v.g[k], Vec8(pass.dt)) - times(L, x_half.g[k]);
+  if (pass.layout.remembers) {
+    double* kept = state + 8 * pass.layout.hourglass();
+    sums.hourglass += of_alive(hourglass_stiffness(kept, q, R, k_h, Q));
+  } else {
+    sums.hourglass += of_alive(hourglass_viscosity(c, q, k_h, pass.dt, length, Q));
+  }
   SolidModes F = solid_forces(now, x, sigma, Q, inverse_volume);
   const auto of_alive3 = [&](const Vec8x3& a) {
     return Vec8x3{of_alive(a.x), of_alive(a.y), of_alive(a.z)};
