@@ -23,16 +23,16 @@ namespace {
 
 /// A cube of n^3 particles 10 mm apart that shears so fast that lists last for ten steps, as they
 /// do in a run of calm and violent parts.
-std::unique_ptr<Simulation> cube_of_water(int n) {
+std::unique_ptr<Simulation> cube_of_water(int n, bool single = false) {
   const std::string side = fmt::format("{} m", 0.01 * n);
   const std::string text = fmt::format(
       "gannet: 1\n"
       "materials: {{water: {{card: water, c0: 30 m/s}}}}\n"
-      "parts: {{pool: {{sph: {{material: water, spacing: 10 mm}}, fill: {{box: {{from: [0, 0, 0], "
-      "to: [{0}, {0}, {0}]}}}}}}}}\n"
+      "parts: {{pool: {{sph: {{material: water, spacing: 10 mm, precision: {1}}}, fill: {{box: "
+      "{{from: [0, 0, 0], to: [{0}, {0}, {0}]}}}}}}}}\n"
       "effects: {{viscosity: {{alpha: 0.05}}}}\n"
       "output: {{until: 1 s}}\n",
-      side);
+      side, single ? "single" : "double");
   auto simulation = make_simulation_of_text(text);
   Nodes& nodes = simulation->scene.nodes;
   const double speed = 0.3;  // [m/s]
@@ -58,8 +58,8 @@ BenchResult particles_result(const Simulation& simulation, double seconds, int s
 }
 
 /// Whole steps as `gannet run` makes them: the same plan, lists made anew when they are stale.
-BenchResult bench_sph_step(int n) {
-  const auto simulation = cube_of_water(n);
+BenchResult bench_sph_step(int n, bool single = false) {
+  const auto simulation = cube_of_water(n, single);
   const int steps = 20;
   const double seconds = median_seconds(3, [&] {
     for (int k = 0; k < steps; ++k) advance(simulation->models);
@@ -175,7 +175,9 @@ std::vector<Benchmark> all_benchmarks() {
           {"sph.step.100k", [] { return bench_sph_step(46); }},
           {"sph.pass.fused.1M", [] { return bench_sph_pass(100, Pass::fused); }},
           {"sph.pass.fused.1M.single", [] { return bench_sph_pass(100, Pass::fused, true); }},
-          {"sph.step.1M", [] { return bench_sph_step(100); }}};
+          {"sph.pass.fused.4M", [] { return bench_sph_pass(159, Pass::fused); }},
+          {"sph.step.1M", [] { return bench_sph_step(100); }},
+          {"sph.step.1M.single", [] { return bench_sph_step(100, true); }}};
 }
 
 }  // namespace
