@@ -135,15 +135,15 @@ BenchResult bench_shell(int n) {
 }
 
 /// A block of n x n x n solids of 20 mm, elastic-plastic, moving.
-BenchResult bench_solid(int n) {
+BenchResult bench_solid(int n, const char* formulation = "one_point") {
   const std::string text = fmt::format(
       "gannet: 1\n"
       "materials: {{metal: {{card: al_6061_t6}}}}\n"
-      "parts: {{bulk: {{solid: {{material: metal}}, shape: {{block: {{from: [0 m, 0 m, 0 m], to: "
-      "[{0} "
-      "m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}\n"
+      "parts: {{bulk: {{solid: {{material: metal, formulation: {2}}}, shape: {{block: {{from: [0, "
+      "0, "
+      "0], to: [{0} m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}\n"
       "output: {{until: 1 s}}\n",
-      0.02 * n, n);
+      0.02 * n, n, formulation);
   const auto simulation = make_simulation_of_text(text);
   Scene& scene = simulation->scene;
   for (Index i = 0; i < scene.nodes.n_owned; ++i) {
@@ -168,6 +168,7 @@ std::vector<Benchmark> all_benchmarks() {
   return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
           {"fe.shell.pass.400k", [] { return bench_shell(632); }},
           {"fe.solid.pass.50k", [] { return bench_solid(37); }},
+          {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
           {"fe.solid.pass.400k", [] { return bench_solid(74); }},
           {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
           {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},

@@ -52,7 +52,9 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.material = material;
   block.section = section;
   block.constants = make_constants(material, section);
-  block.layout = {material.plastic(), !section.viscous_hourglass};
+  assert(section.points == 1 || section.points == 8);
+  block.layout = {material.plastic(), section.points == 1 && !section.viscous_hourglass,
+                  section.points};
   block.n_elements = static_cast<Index>(connectivity.size() / 8);
   block.corners = corners_by_block(connectivity, 8);
   block.state.assign(
@@ -63,7 +65,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
       throw std::invalid_argument("element " + std::to_string(e + 1) +
                                   (volume < 0 ? " is inside out" : " has no volume"));
     }
-    block.value(e, SolidLayout::inverse_volume()) = 1 / volume;
+    block.value(e, block.layout.inverse_volume()) = 1 / volume;
   }
   block.colouring = colour_chunks(connectivity, 8, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
@@ -72,7 +74,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
 
 void add_solid_masses(const SolidBlock& block, Nodes& nodes) {
   for (Index e = 0; e < block.n_elements; ++e) {
-    const double mass = block.material.rho / (8 * block.value(e, SolidLayout::inverse_volume()));
+    const double mass = block.material.rho / (8 * block.value(e, block.layout.inverse_volume()));
     for (int a = 0; a < 8; ++a) {
       nodes.x[static_cast<std::size_t>(corner_of(block.corners, 8, e, a))].w += mass;
     }
@@ -125,7 +127,7 @@ double stable_step(const SolidBlock& block) {
 Index erode_collapsed(SolidBlock& block, std::span<const Line> x) {
   Index n = 0;
   for (Index e = 0; e < block.n_elements; ++e) {
-    double& inverse_V0 = block.value(e, SolidLayout::inverse_volume());
+    double& inverse_V0 = block.value(e, block.layout.inverse_volume());
     if (inverse_V0 == 0) continue;
     // What the pass saw halfway is gone by now: the smallest of the pass is taken at its word.
     const bool seen = block.smallest == e && block.volume_ratio <= block.section.smallest_ratio;
@@ -136,9 +138,30 @@ Index erode_collapsed(SolidBlock& block, std::span<const Line> x) {
   return n;
 }
 
-Symmetric<double> stress_at(const SolidBlock& block, Index e) {
-  const auto at = [&](int k) { return block.value(e, SolidLayout::stress() + k); };
+Symmetric<double> stress_at(const SolidBlock& block, Index e, int point) {
+  const auto at = [&](int k) { return block.value(e, block.layout.stress(point) + k); };
   return {at(0), at(1), at(2), at(3), at(4), at(5)};
+}
+
+void show_state(SolidBlock& block) {
+  const auto n = static_cast<std::size_t>(block.n_elements);
+  block.stress_shown.assign(6 * n, 0);
+  block.plastic_shown.assign(block.layout.plastic ? n : 0, 0);
+  parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
+    for (Index e = begin; e < end; ++e) {
+      for (int point = 0; point < block.layout.n_points; ++point) {
+        const Symmetric<double> s = stress_at(block, e, point);
+        const double part[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
+        for (std::size_t k = 0; k < 6; ++k) {
+          block.stress_shown[6 * static_cast<std::size_t>(e) + k] +=
+              part[k] / block.layout.n_points;
+        }
+        if (!block.layout.plastic) continue;
+        double& eps_p = block.plastic_shown[static_cast<std::size_t>(e)];
+        eps_p = std::max(eps_p, block.value(e, block.layout.plastic_strain(point)));
+      }
+    }
+  });
 }
 
 }  // namespace gannet

@@ -18,6 +18,7 @@ namespace gannet {
 
 /// What makes a volume a solid.
 struct SolidSection {
+  int points = 1;                       ///< of integration: 1, or 8 with a mean dilatation
   bool viscous_hourglass = false;       ///< else a stiffness that remembers
   double hourglass_coefficient = 0.05;  ///< kappa, see solid_element.hpp
   double linear_viscosity = 0.06;       ///< C2 of the bulk viscosity [-], 0: none
@@ -39,6 +40,8 @@ struct SolidBlock {
   Array<double> state;   ///< layout.n_values() * 8 a block
   ChunkColours colouring;
   std::vector<SolidSums> sums;  ///< one a chunk, of the last pass
+  Array<double> stress_shown;   ///< 6 an element, mean of its points, by show_state() [Pa]
+  Array<double> plastic_shown;  ///< largest eps_p of its points [-]
   double omega2 = 0;            ///< of the last pass [1/s^2]
   Index limiting = -1;          ///< the element it belongs to
   double volume_ratio = 1;      ///< smallest V/V0 of the last pass
@@ -89,7 +92,10 @@ double stable_step(const SolidBlock& block);
 /// where it was counted. Returns how many. Throws nothing.
 Index erode_collapsed(SolidBlock& block, std::span<const Line> x);
 
-/// Stress of element e: xx, yy, zz, xy, yz, xz [Pa].
-Symmetric<double> stress_at(const SolidBlock& block, Index e);
+/// Stress of a point of element e: xx, yy, zz, xy, yz, zx [Pa].
+Symmetric<double> stress_at(const SolidBlock& block, Index e, int point = 0);
+
+/// Fills stress_shown and, where the material yields, plastic_shown from the state.
+void show_state(SolidBlock& block);
 
 }  // namespace gannet

@@ -42,9 +42,10 @@ std::vector<Key> solid_keys() {
            .refers_to = "materials"},
           {.name = "formulation",
            .kind = Kind::choice,
-           .text = "element",
+           .text = "one_point: fast, with hourglass control; eight_points: a mean dilatation, for "
+                   "bending and nearly incompressible solids",
            .fallback = "one_point",
-           .choices = {"one_point"}},
+           .choices = {"one_point", "eight_points"}},
           {.name = "hourglass",
            .kind = Kind::map,
            .text = "control of the modes that one point of integration does not see",
@@ -101,6 +102,10 @@ void add_parts(const Keys& root, Draft& draft) {
   }
 }
 
+bool has_eight_points(const Keys& solid) {
+  return solid.has("formulation") && solid.word("formulation") == "eight_points";
+}
+
 /// Unless said: viscous where the solid may yield, since an elastic force does not flow with it.
 bool resists_viscously(const Keys& solid, const ElasticPlastic& material) {
   if (solid.has("hourglass") && solid.map("hourglass").has("type")) {
@@ -112,6 +117,12 @@ bool resists_viscously(const Keys& solid, const ElasticPlastic& material) {
 SolidSection read_section(const Keys& solid, const ElasticPlastic& material) {
   SolidSection section;
   section.viscous_hourglass = resists_viscously(solid, material);
+  if (has_eight_points(solid)) {
+    section.points = 8;
+    if (solid.given("hourglass")) {
+      solid.complain("hourglass", "has no meaning with eight points, which see every mode");
+    }
+  }
   if (solid.has("hourglass")) {
     const Keys hourglass = solid.map("hourglass");
     section.hourglass_coefficient =
@@ -127,21 +138,25 @@ SolidSection read_section(const Keys& solid, const ElasticPlastic& material) {
   return section;
 }
 
-/// The whole state for checkpoints; for output, stress and plastic strain.
+/// The whole state for checkpoints; for output, what is derived from it when it is asked for.
 void track(Scene& scene, SolidBlock& block) {
-  const auto field = [&](const char* name, const char* unit, const char* vtk, int first, int n) {
-    Field f =
-        element_field(block.name + name, unit, block.part, block.state, block.layout.n_values(),
-                      first, n, [&block] { return block.n_elements; });
-    f.owner = "solid";
-    f.vtk = vtk;
-    return f;
+  Field whole =
+      element_field(block.name + ".state", "", block.part, block.state, block.layout.n_values(), 0,
+                    block.layout.n_values(), [&block] { return block.n_elements; });
+  whole.owner = "solid";
+  scene.fields.push_back(std::move(whole));
+  const auto show = [&](const char* name, const char* unit, const char* vtk, Array<double>& shown,
+                        int components) {
+    Field field =
+        plain_field(block.name + name, unit, vtk, Over::cells, shown, components, GhostRule::none);
+    field.owner = "solid";
+    field.prepare = [&block] { show_state(block); };
+    track_shown(scene, block.part, std::move(field));
   };
-  scene.fields.push_back(field(".state", "", "", 0, block.layout.n_values()));
-  track_shown(scene, block.part, field(".stress", "Pa", "Stress", SolidLayout::stress(), 6));
+  show_state(block);
+  show(".stress", "Pa", "Stress", block.stress_shown, 6);
   if (block.layout.plastic) {
-    track_shown(scene, block.part,
-                field(".plastic_strain", "", "PlasticStrain", SolidLayout::plastic_strain(), 1));
+    show(".plastic_strain", "", "PlasticStrain", block.plastic_shown, 1);
   }
 }
 
@@ -188,7 +203,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     ElementPart part{.kind = "solid",
                      .part = block.part,
                      .plastic = block.material.plastic(),
-                     .hourglass = true,
+                     .hourglass = block.layout.n_points == 1,
                      .viscous = true};
     part.pass = [&scene, &block](const Step& step) {
       const ElementWork work = solid_pass(block, scene.nodes, step.dt_old);
@@ -209,6 +224,7 @@ std::vector<Choice> choices(const Keys& root, Scene&) {
   std::vector<Choice> list;
   for (const Keys& part : parts_with(root, "solid")) {
     const Keys solid = part.map("solid");
+    if (has_eight_points(solid)) continue;
     if (solid.has("hourglass") && solid.map("hourglass").has("type")) continue;
     const std::string name = solid.word("material");
     const bool plastic = read_elastic_plastic(root.map("materials").map(name)).plastic();

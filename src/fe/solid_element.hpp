@@ -22,6 +22,14 @@
 // exact for a rotation about an axis that keeps its direction (1980, Int. J. Numer. Methods Eng.
 // 15, 1862-1867).
 //
+// The accurate element has eight points at +-1/sqrt(3), each with its own gradient, stress and
+// rotation, but for the dilatation, which is the mean over the element (Nagtegaal, Parks & Rice
+// 1974, Comput. Methods Appl. Mech. Eng. 4, 153-177; Hughes 1980): it has no hourglass patterns and
+// does not lock where the material is nearly incompressible or flows. With c_k = d x_l x d x_m the
+// cofactors of the Jacobian at a point, J its determinant,
+//   L = 1/J sum_k (d v/d xi_k) c_k^T,   e = sym L + (tr L_mean - tr L)/3 I,
+//   F of d x/d xi_k = -sum_points dev(sigma) c_k,   F_mode -= p_mean D_mode.
+//
 // For *.isa.cpp files only.
 #pragma once
 
@@ -176,36 +184,132 @@ GANNET_INLINE Symmetric<Vec8> rotated(const Tensor& R, const Symmetric<Vec8>& s)
           dot(x, R.row[1]), dot(y, R.row[2]), dot(z, R.row[0])};
 }
 
-/// The trace of the Gram matrix sum_I B_I B_I^T and a bound of its largest eigenvalue that is sharp
-/// for a cube and for a flat element: mean + sqrt(2/3) |deviator|.
+/// Bound of the largest eigenvalue of a symmetric tensor that is not negative: mean + sqrt(2/3)
+/// |deviator|, sharp where two are equal and below the third, and where all are.
+GANNET_INLINE Vec8 largest_eigenvalue_bound(const Symmetric<Vec8>& G) {
+  const Vec8 trace = G.xx + G.yy + G.zz;
+  const Vec8 d2 = contraction(G, G) - Vec8(1.0 / 3.0) * trace * trace;
+  return Vec8(1.0 / 3.0) * trace + Vec8(0.81649658092772603) * sqrt(max(d2, Vec8(0.0)));
+}
+
+/// The trace of the Gram matrix sum_I B_I B_I^T of the mean gradients, and the bound of its largest
+/// eigenvalue: sharp for a cube and for a flat element. Both times V^2.
 struct GramBound {
   Vec8 trace;
   Vec8 largest;
 };
 
 GANNET_INLINE GramBound gram_bound(const SolidGeometry& G) {
-  Vec8 xx(0.0);
-  Vec8 yy(0.0);
-  Vec8 zz(0.0);
-  Vec8 xy(0.0);
-  Vec8 yz(0.0);
-  Vec8 zx(0.0);
+  Symmetric<Vec8> sum{Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0)};
   for (int k = 0; k < 6; ++k) {
     const Vec8x3& D = k < 3 ? G.a[k] : G.g[k - 3];
-    xx += D.x * D.x;
-    yy += D.y * D.y;
-    zz += D.z * D.z;
-    xy += D.x * D.y;
-    yz += D.y * D.z;
-    zx += D.z * D.x;
+    sum.xx += D.x * D.x;
+    sum.yy += D.y * D.y;
+    sum.zz += D.z * D.z;
+    sum.xy += D.x * D.y;
+    sum.yz += D.y * D.z;
+    sum.zx += D.z * D.x;
   }
   const Vec8 eighth(0.125);
-  const Vec8 trace = xx + yy + zz;
-  const Vec8 d2 = xx * xx + yy * yy + zz * zz + Vec8(2.0) * (xy * xy + yz * yz + zx * zx) -
-                  Vec8(1.0 / 3.0) * trace * trace;
-  const Vec8 deviator = sqrt(max(d2, Vec8(0.0)));
-  return {eighth * trace,
-          eighth * (Vec8(1.0 / 3.0) * trace + Vec8(0.81649658092772603) * deviator)};
+  return {eighth * (sum.xx + sum.yy + sum.zz), eighth * largest_eigenvalue_bound(sum)};
+}
+
+/// A place in the element: xi, eta, zeta.
+struct SolidPlace {
+  double xi, eta, zeta;
+};
+
+/// Gauss point 0 ... 7, in the order of the corners.
+GANNET_INLINE SolidPlace gauss_place(int point) {
+  constexpr double a = 0.57735026918962576;
+  const int k = point & 3;
+  return {k == 1 || k == 2 ? a : -a, k > 1 ? a : -a, point > 3 ? a : -a};
+}
+
+/// d/d xi, d/d eta, d/d zeta of the field with coefficients m.
+GANNET_INLINE void derivatives(const SolidModes& m, const SolidPlace& at, Vec8x3 d[3]) {
+  const Vec8 xi(at.xi);
+  const Vec8 eta(at.eta);
+  const Vec8 zeta(at.zeta);
+  d[0] = m.a[0] + scaled(m.g[1] + scaled(m.g[3], eta), zeta) + scaled(m.g[2], eta);
+  d[1] = m.a[1] + scaled(m.g[0] + scaled(m.g[3], xi), zeta) + scaled(m.g[2], xi);
+  d[2] = m.a[2] + scaled(m.g[0] + scaled(m.g[3], xi), eta) + scaled(m.g[1], xi);
+}
+
+/// Cofactors of the Jacobian of the map at a point, and its determinant.
+struct PointGradient {
+  Vec8x3 c[3];  ///< [m^2]
+  Vec8 det;     ///< [m^3]
+};
+
+GANNET_INLINE PointGradient point_gradient(const SolidModes& x, const SolidPlace& at) {
+  Vec8x3 d[3];
+  derivatives(x, at, d);
+  PointGradient g;
+  g.c[0] = cross(d[1], d[2]);
+  g.c[1] = cross(d[2], d[0]);
+  g.c[2] = cross(d[0], d[1]);
+  g.det = dot(d[0], g.c[0]);
+  return g;
+}
+
+/// Gradient at a point of the field with coefficients v, times `scale`.
+GANNET_INLINE Tensor gradient_at(const PointGradient& g, const SolidModes& v, const SolidPlace& at,
+                                 Vec8 scale) {
+  Vec8x3 d[3];
+  derivatives(v, at, d);
+  const Vec8 s = scale * reciprocal(g.det);
+  const auto row = [&](Vec8 a, Vec8 b, Vec8 c) {
+    return scaled(scaled(g.c[0], a) + scaled(g.c[1], b) + scaled(g.c[2], c), s);
+  };
+  return {{row(d[0].x, d[1].x, d[2].x), row(d[0].y, d[1].y, d[2].y), row(d[0].z, d[1].z, d[2].z)}};
+}
+
+/// Adds the forces of the deviator of sigma at a point, p its mean [Pa], to those on the
+/// coefficients.
+GANNET_INLINE void add_point_forces(const PointGradient& g, const SolidPlace& at,
+                                    const Symmetric<Vec8>& s, Vec8 p, SolidModes& F) {
+  const Tensor T{{{p - s.xx, -s.xy, -s.zx}, {-s.xy, p - s.yy, -s.yz}, {-s.zx, -s.yz, p - s.zz}}};
+  const Vec8x3 xi = times(T, g.c[0]);
+  const Vec8x3 eta = times(T, g.c[1]);
+  const Vec8x3 zeta = times(T, g.c[2]);
+  F.a[0] = F.a[0] + xi;
+  F.a[1] = F.a[1] + eta;
+  F.a[2] = F.a[2] + zeta;
+  F.g[0] = F.g[0] + scaled(eta, Vec8(at.zeta)) + scaled(zeta, Vec8(at.eta));
+  F.g[1] = F.g[1] + scaled(xi, Vec8(at.zeta)) + scaled(zeta, Vec8(at.xi));
+  F.g[2] = F.g[2] + scaled(xi, Vec8(at.eta)) + scaled(eta, Vec8(at.xi));
+  F.g[3] = F.g[3] + scaled(xi, Vec8(at.eta * at.zeta)) + scaled(eta, Vec8(at.zeta * at.xi)) +
+           scaled(zeta, Vec8(at.xi * at.eta));
+}
+
+/// Adds the forces of a mean stress [Pa] over the whole element.
+GANNET_INLINE void add_mean_stress(const SolidGeometry& G, Vec8 mean, SolidModes& F) {
+  for (int k = 0; k < 3; ++k) F.a[k] = F.a[k] - scaled(G.a[k], mean);
+  for (int k = 0; k < 3; ++k) F.g[k] = F.g[k] - scaled(G.g[k], mean);
+}
+
+/// Bound of the largest eigenvalue of sum_I B_I B_I^T at a Gauss point, B_I the gradients of the
+/// shape functions there [1/m^2]: sum_I (dN_I/dxi_k)^2 = 2/9, and xi_k xi_l/6 for k != l.
+GANNET_INLINE Vec8 largest_gram(const PointGradient& g, const SolidPlace& at) {
+  const Vec8 two_ninths(2.0 / 9.0);
+  const Vec8 xy(at.xi * at.eta / 6);
+  const Vec8 yz(at.eta * at.zeta / 6);
+  const Vec8 zx(at.zeta * at.xi / 6);
+  const Vec8x3 w[3] = {scaled(g.c[0], two_ninths) + scaled(g.c[1], xy) + scaled(g.c[2], zx),
+                       scaled(g.c[1], two_ninths) + scaled(g.c[0], xy) + scaled(g.c[2], yz),
+                       scaled(g.c[2], two_ninths) + scaled(g.c[0], zx) + scaled(g.c[1], yz)};
+  Symmetric<Vec8> G{Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0)};
+  for (int k = 0; k < 3; ++k) {
+    G.xx += g.c[k].x * w[k].x;
+    G.yy += g.c[k].y * w[k].y;
+    G.zz += g.c[k].z * w[k].z;
+    G.xy += g.c[k].x * w[k].y;
+    G.yz += g.c[k].y * w[k].z;
+    G.zx += g.c[k].z * w[k].x;
+  }
+  const Vec8 inverse_det = reciprocal(g.det);
+  return largest_eigenvalue_bound(G) * inverse_det * inverse_det;
 }
 
 }  // namespace gannet::GANNET_ISA_NS

@@ -26,14 +26,16 @@ struct SolidConstants {
 struct SolidLayout {
   bool plastic = false;
   bool remembers = true;  ///< hourglass forces are kept: control by stiffness
-  /// sigma_xx, yy, zz, xy, yz, zx [Pa]
-  [[nodiscard]] static int stress() { return 0; }
-  [[nodiscard]] static int viscous_pressure() { return 6; }  ///< q [Pa]
+  int n_points = 1;       ///< 1 or 8
+  [[nodiscard]] int per_point() const { return plastic ? 7 : 6; }
+  /// sigma_xx, yy, zz, xy, yz, zx of a point [Pa]
+  [[nodiscard]] int stress(int point) const { return point * per_point(); }
+  [[nodiscard]] int plastic_strain(int point) const { return stress(point) + 6; }  ///< eps_p [-]
+  [[nodiscard]] int viscous_pressure() const { return n_points * per_point(); }    ///< q [Pa]
   /// 1/V0 [1/m^3]; 0 in empty lanes and eroded elements
-  [[nodiscard]] static int inverse_volume() { return 7; }
-  [[nodiscard]] static int plastic_strain() { return 8; }  ///< eps_p [-]; plastic only
+  [[nodiscard]] int inverse_volume() const { return viscous_pressure() + 1; }
   /// Q of the four hourglass patterns, x, y, z each [N]; where they are remembered
-  [[nodiscard]] int hourglass() const { return plastic ? 9 : 8; }
+  [[nodiscard]] int hourglass() const { return inverse_volume() + 1; }
   [[nodiscard]] int n_values() const { return hourglass() + (remembers ? 12 : 0); }
 };
 

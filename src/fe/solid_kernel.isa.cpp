@@ -1,6 +1,7 @@
 #include "fe/solid_kernel.hpp"
 
 #include "fe/solid_element.hpp"
+#include "fe/solid_forces.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -39,127 +40,6 @@ struct SolidLaneSums {
   Vec8 smallest = Vec8(-1.0);
 };
 
-GANNET_INLINE Symmetric<Vec8> load_stress(const double* p) {
-  return {Vec8::load(p),      Vec8::load(p + 8),  Vec8::load(p + 16),
-          Vec8::load(p + 24), Vec8::load(p + 32), Vec8::load(p + 40)};
-}
-
-GANNET_INLINE void store_stress(const Symmetric<Vec8>& s, double* p) {
-  s.xx.store(p);
-  s.yy.store(p + 8);
-  s.zz.store(p + 16);
-  s.xy.store(p + 24);
-  s.yz.store(p + 32);
-  s.zx.store(p + 40);
-}
-
-/// Stress from n-1 to n: turned by R, elastic answer to e, returned to the yield surface. Adds the
-/// work per volume: (sigma(n-1) + sigma(n))/2 : e [J/m^3].
-template <bool plastic>
-GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double* state,
-                                           const Symmetric<Vec8>& e, const Tensor& R, Vec8& work,
-                                           Vec8& plastic_work) {
-  const Symmetric<Vec8> old = load_stress(state);
-  Symmetric<Vec8> sigma = rotated(R, old);
-  add_elastic(c.law, e, sigma);
-  plastic_work = Vec8(0.0);
-  if constexpr (plastic) {
-    double* strain = state + 8 * SolidLayout::plastic_strain();
-    const Vec8 eps_p = Vec8::load(strain);
-    const Vec8 Y = Vec8(c.law.yield) + Vec8(c.law.hardening) * eps_p;
-    const Vec8 flow = return_to_yield(c.law, Y, sigma);
-    plastic_work = flow * (Y + Vec8(0.5 * c.law.hardening) * flow);
-    (eps_p + flow).store(strain);
-  }
-  store_stress(sigma, state);
-  work = Vec8(0.5) * (contraction(old, e) + contraction(sigma, e));
-  return sigma;
-}
-
-/// What the bulk viscosity adds [Pa], and to the damping of the highest mode.
-struct BulkViscosity {
-  Vec8 q;
-  Vec8 zeta;
-};
-
-/// Bulk viscosity of elements that shrink at the rate d = tr D < 0 (von Neumann & Richtmyer 1950;
-/// Landshoff 1955), l the shortest distance across the element:
-///   q = rho l |d| (C1 l |d| + C2 c),   zeta = C2 + C1 l |d|/c
-GANNET_INLINE BulkViscosity bulk_viscosity(const SolidConstants& c, Vec8 trace_e, double dt,
-                                           Vec8 length, Vec8 rho) {
-  const Vec8 rate = max(-trace_e, Vec8(0.0)) * Vec8(dt > 0 ? 1 / dt : 0.0);
-  const Vec8 speed = Vec8(c.quadratic_viscosity) * length * rate;
-  const Vec8 linear(c.linear_viscosity / c.inverse_wave_speed);
-  const Vec8 zeta = Vec8(c.linear_viscosity) + speed * Vec8(c.inverse_wave_speed);
-  return {rho * length * rate * (speed + linear), zeta};
-}
-
-/// Resists the hourglass patterns by stiffness: Q to n in `state`, returned in Q. Returns the work
-/// [J].
-GANNET_INLINE Vec8 hourglass_stiffness(double* state, const Vec8x3 q[4], const Tensor& R, Vec8 k_h,
-                                       Vec8x3 Q[4]) {
-  Vec8 twice_work(0.0);
-  for (int k = 0; k < 4; ++k) {
-    double* p = state + 24 * k;
-    const Vec8x3 old{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
-    Q[k] = times(R, old) + scaled(q[k], k_h);
-    Q[k].x.store(p);
-    Q[k].y.store(p + 8);
-    Q[k].z.store(p + 16);
-    twice_work += dot(old, q[k]) + dot(Q[k], q[k]);
-  }
-  return Vec8(0.5) * twice_work;
-}
-
-/// Resists them by viscosity: the force that the stiffness k_h would build up while a wave crosses
-/// `length`, Q = k_h (l/c) q/dt. Nothing is remembered, so the work is Q . q of the step that led
-/// here: more than the trapezoid by a term of second order in the change of q. Returns it [J].
-GANNET_INLINE Vec8 hourglass_viscosity(const SolidConstants& c, const Vec8x3 q[4], Vec8 k_h,
-                                       double dt, Vec8 length, Vec8x3 Q[4]) {
-  const Vec8 viscous = k_h * length * Vec8(dt > 0 ? c.inverse_wave_speed / dt : 0.0);
-  Vec8 work(0.0);
-  for (int k = 0; k < 4; ++k) {
-    Q[k] = scaled(q[k], viscous);
-    work += dot(Q[k], q[k]);
-  }
-  return work;
-}
-
-/// Forces on the coefficients: -(sigma - sum Q_k g_k^T / V) D_mode, and -Q_k on each hourglass one.
-GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& x,
-                                      const Symmetric<Vec8>& s, const Vec8x3 Q[4],
-                                      Vec8 inverse_volume) {
-  Tensor T{{{-s.xx, -s.xy, -s.zx}, {-s.xy, -s.yy, -s.yz}, {-s.zx, -s.yz, -s.zz}}};
-  for (int k = 0; k < 4; ++k) {
-    const Vec8x3 g = scaled(x.g[k], inverse_volume);
-    T.row[0] = T.row[0] + scaled(g, Q[k].x);
-    T.row[1] = T.row[1] + scaled(g, Q[k].y);
-    T.row[2] = T.row[2] + scaled(g, Q[k].z);
-  }
-  SolidModes F;
-  for (int k = 0; k < 3; ++k) F.a[k] = times(T, G.a[k]);
-  for (int k = 0; k < 3; ++k) F.g[k] = times(T, G.g[k]) - Q[k];
-  F.g[3] = -Q[3];
-  return F;
-}
-
-/// Bound of the largest squared frequency of each element [1/s^2], from its own lumped mass M/8 a
-/// corner. With G the Gram matrix, (tr d)^2 <= tr G |v|^2 and d : d <= largest(G) |v|^2, so
-///   omega^2 <= 8/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + 8 largest(G) sum |g|^2/V^2),
-/// exact for a cube (3 K) and for a flat element (lambda + 2 mu).
-GANNET_INLINE Vec8 solid_omega2(const SolidConstants& c, const GramBound& gram, const SolidModes& x,
-                                Vec8 inverse_volume, Vec8 inverse_mass, Vec8 k_h) {
-  const Vec8 lambda(c.law.bulk - 2.0 / 3.0 * c.law.shear);
-  const Vec8 two_mu(2.0 * c.law.shear);
-  Vec8 g2(0.0);
-  for (const Vec8x3& g : x.g) g2 += dot(g, g);
-  const Vec8 eight(8.0);
-  const Vec8 hourglass =
-      k_h * (Vec8(1.0) + eight * gram.largest * g2 * inverse_volume * inverse_volume);
-  return inverse_mass *
-         (eight * inverse_volume * (lambda * gram.trace + two_mu * gram.largest) + hourglass);
-}
-
 /// Keeps the larger bound and the smaller volume of each lane, and whose they are.
 GANNET_INLINE void note_extremes(Vec8 omega2, Vec8 volume_ratio, std::int32_t block,
                                  SolidLaneSums& sums) {
@@ -176,94 +56,197 @@ GANNET_INLINE void note_extremes(Vec8 omega2, Vec8 volume_ratio, std::int32_t bl
 template <class Mask>
 GANNET_INLINE void forget_collapsed(const SolidLayout& layout, Mask alive, double* state) {
   for (int k = 0; k < layout.n_values(); ++k) {
-    if (k == SolidLayout::inverse_volume()) continue;
+    if (k == layout.inverse_volume()) continue;
     double* p = state + 8 * k;
     select(alive, Vec8::load(p), Vec8(0.0)).store(p);
   }
 }
 
-/// One block of eight elements.
+/// Eight elements on their way from n-1 to n: what all formulations start from.
+struct SolidMotion {
+  SolidModes x;       ///< of the positions at n
+  SolidModes x_half;  ///< halfway to them
+  SolidModes v;       ///< of the velocities
+  SolidGeometry half;
+  SolidGeometry now;
+  Tensor L;           ///< mean gradient of the displacement of the step
+  Symmetric<Vec8> e;  ///< its symmetric part
+  GramBound gram;     ///< of the mean gradients at n
+  Vec8 inverse_V0;    ///< 0 in empty lanes and eroded elements
+  Vec8 shrunk_to;     ///< smaller of V/V0 at n and halfway
+  Mask8 alive;        ///< elements that are there and have not collapsed
+  Vec8 inverse_volume;
+  Vec8 inverse_mass;
+  Vec8 length;  ///< shortest distance across the element
+  [[nodiscard]] GANNET_INLINE Vec8 of_alive(Vec8 a) const { return select(alive, a, Vec8(0.0)); }
+  [[nodiscard]] GANNET_INLINE Vec8x3 of_alive(const Vec8x3& a) const {
+    return {of_alive(a.x), of_alive(a.y), of_alive(a.z)};
+  }
+};
+
+GANNET_INLINE SolidModes gather_modes(const double* base, const std::int32_t* corners) {
+  Vec8x3 at_corner[8];
+  for (int a = 0; a < 8; ++a) at_corner[a] = gather_corner(base, corners, a);
+  return modes_of(at_corner);
+}
+
+GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t* corners,
+                                       const double* state) {
+  const SolidConstants& c = *pass.constants;
+  SolidMotion m;
+  m.x = gather_modes(pass.x, corners);
+  m.v = gather_modes(pass.v, corners);
+  const Vec8 half_dt(0.5 * pass.dt);
+  for (int k = 0; k < 3; ++k) m.x_half.a[k] = m.x.a[k] - scaled(m.v.a[k], half_dt);
+  for (int k = 0; k < 4; ++k) m.x_half.g[k] = m.x.g[k] - scaled(m.v.g[k], half_dt);
+  m.half = solid_geometry(m.x_half);
+  m.L = mean_gradient(m.half, m.v, Vec8(pass.dt) * reciprocal(m.half.volume));
+  m.e = symmetric_part(m.L);
+  m.now = solid_geometry(m.x);
+  m.gram = gram_bound(m.now);
+  m.inverse_V0 = Vec8::load(state + 8 * pass.layout.inverse_volume());
+  const auto there = less(Vec8(0.0), m.inverse_V0);
+  m.shrunk_to = select(there, min(m.now.volume, m.half.volume) * m.inverse_V0, Vec8(1.0));
+  m.alive = less(select(there, Vec8(c.smallest_ratio), Vec8(1.0)), m.shrunk_to);
+  m.inverse_volume = reciprocal(m.now.volume);
+  m.inverse_mass = m.inverse_V0 * Vec8(1.0 / c.rho0);
+  m.length = m.now.volume * rsqrt(Vec8(2.0) * m.gram.largest);
+  return m;
+}
+
+/// The bulk viscosity of the step; its pressure is kept in the state, its work added to the sums.
+GANNET_INLINE BulkViscosity add_bulk_viscosity(const SolidPass& pass, const SolidMotion& m,
+                                               double* state, SolidLaneSums& sums) {
+  const SolidConstants& c = *pass.constants;
+  const Vec8 trace_e = m.e.xx + m.e.yy + m.e.zz;
+  const Vec8 ratio = select(m.alive, m.now.volume * m.inverse_V0, Vec8(1.0));
+  const BulkViscosity bulk =
+      bulk_viscosity(c, trace_e, pass.dt, m.length, Vec8(c.rho0) * reciprocal(ratio));
+  double* kept = state + 8 * pass.layout.viscous_pressure();
+  sums.viscous += m.of_alive(Vec8(-0.5) * (Vec8::load(kept) + bulk.q) * trace_e * m.half.volume);
+  bulk.q.store(kept);
+  return bulk;
+}
+
+/// Hourglass forces of the step, their work added to the sums. k_h: stiffness [N/m].
+GANNET_INLINE void add_hourglass(const SolidPass& pass, const SolidMotion& m, const Tensor& R,
+                                 Vec8 k_h, double* state, SolidLaneSums& sums, Vec8x3 Q[4]) {
+  Vec8x3 q[4];
+  for (int k = 0; k < 4; ++k) {
+    q[k] = scaled(m.v.g[k], Vec8(pass.dt)) - times(m.L, m.x_half.g[k]);
+  }
+  if (pass.layout.remembers) {
+    double* kept = state + 8 * pass.layout.hourglass();
+    sums.hourglass += m.of_alive(hourglass_stiffness(kept, q, R, k_h, Q));
+  } else {
+    sums.hourglass +=
+        m.of_alive(hourglass_viscosity(*pass.constants, q, k_h, pass.dt, m.length, Q));
+  }
+}
+
+/// Adds the forces to the corners and notes the extremes. F: forces on the coefficients; omega2
+/// [1/s^2], damped.
+GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
+                                const std::int32_t* corners, std::int32_t block, SolidModes& F,
+                                Vec8 omega2, double* state, SolidLaneSums& sums) {
+  for (Vec8x3& a : F.a) a = m.of_alive(a);
+  for (Vec8x3& g : F.g) g = m.of_alive(g);
+  const auto there = less(Vec8(0.0), m.inverse_V0);
+  if (any(less(m.shrunk_to, select(there, Vec8(pass.constants->smallest_ratio), Vec8(0.0))))) {
+    forget_collapsed(pass.layout, m.alive, state);
+  }
+  Vec8x3 at_corner[8];
+  corners_of(F, at_corner);
+  for (int a = 0; a < 8; ++a) scatter_corner(pass.f, corners, a, at_corner[a]);
+  note_extremes(m.of_alive(omega2), m.shrunk_to, block, sums);
+}
+
+/// By how much damping zeta of the highest mode lowers the stable step, squared: omega^2 times
+/// this.
+GANNET_INLINE Vec8 damped_factor(Vec8 zeta) {
+  const Vec8 factor = sqrt(Vec8(1.0) + zeta * zeta) + zeta;
+  return factor * factor;
+}
+
+/// One block of eight elements with one point.
 template <bool plastic>
-GANNET_INLINE void solid_block(const SolidPass& pass, std::int32_t block, SolidLaneSums& sums) {
+GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
   const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
   double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
-  Vec8x3 at_corner[8];
-  for (int a = 0; a < 8; ++a) at_corner[a] = gather_corner(pass.x, corners, a);
-  const SolidModes x = modes_of(at_corner);
-  for (int a = 0; a < 8; ++a) at_corner[a] = gather_corner(pass.v, corners, a);
-  const SolidModes v = modes_of(at_corner);
-  SolidModes x_half;
-  const Vec8 half_dt(0.5 * pass.dt);
-  for (int k = 0; k < 3; ++k) x_half.a[k] = x.a[k] - scaled(v.a[k], half_dt);
-  for (int k = 0; k < 4; ++k) x_half.g[k] = x.g[k] - scaled(v.g[k], half_dt);
-
-  const SolidGeometry half = solid_geometry(x_half);
-  const Tensor L = mean_gradient(half, v, Vec8(pass.dt) * reciprocal(half.volume));
-  const Symmetric<Vec8> e = symmetric_part(L);
-  const Tensor R = rotation_of(L);
-
-  const SolidGeometry now = solid_geometry(x);
-  const GramBound gram = gram_bound(now);
-  const Vec8 inverse_V0 = Vec8::load(state + 8 * SolidLayout::inverse_volume());
-  const auto there = less(Vec8(0.0), inverse_V0);
-  const Vec8 shrunk_to = select(there, min(now.volume, half.volume) * inverse_V0, Vec8(1.0));
-  const auto alive = less(select(there, Vec8(c.smallest_ratio), Vec8(1.0)), shrunk_to);
-  const auto of_alive = [&](Vec8 a) { return select(alive, a, Vec8(0.0)); };
-  const Vec8 inverse_volume = reciprocal(now.volume);
-  const Vec8 inverse_mass = inverse_V0 * Vec8(1.0 / c.rho0);
-  const Vec8 length = now.volume * rsqrt(Vec8(2.0) * gram.largest);
-
+  const SolidMotion m = solid_motion(pass, corners, state);
+  const Tensor R = rotation_of(m.L);
   Vec8 work;
   Vec8 plastic_work;
-  Symmetric<Vec8> sigma = solid_stress<plastic>(c, state, e, R, work, plastic_work);
-  sums.internal += of_alive(work * half.volume);
-  if constexpr (plastic) sums.plastic += of_alive(plastic_work * half.volume);
-
-  const Vec8 trace_e = e.xx + e.yy + e.zz;
-  const Vec8 rho = Vec8(c.rho0) * reciprocal(select(alive, now.volume * inverse_V0, Vec8(1.0)));
-  const BulkViscosity bulk = bulk_viscosity(c, trace_e, pass.dt, length, rho);
-  double* q_state = state + 8 * SolidLayout::viscous_pressure();
-  sums.viscous += of_alive(Vec8(-0.5) * (Vec8::load(q_state) + bulk.q) * trace_e * half.volume);
-  bulk.q.store(q_state);
+  Symmetric<Vec8> sigma = solid_stress<plastic>(c, state, m.e, R, work, plastic_work);
+  sums.internal += m.of_alive(work * m.half.volume);
+  if constexpr (plastic) sums.plastic += m.of_alive(plastic_work * m.half.volume);
+  const BulkViscosity bulk = add_bulk_viscosity(pass, m, state, sums);
   sigma.xx -= bulk.q;
   sigma.yy -= bulk.q;
   sigma.zz -= bulk.q;
-
-  const Vec8 k_h = Vec8(8.0 * c.hourglass * (c.law.bulk + 4.0 / 3.0 * c.law.shear)) * gram.trace *
-                   inverse_volume;
-  Vec8x3 q[4];
+  const Vec8 k_h = Vec8(8.0 * c.hourglass * (c.law.bulk + 4.0 / 3.0 * c.law.shear)) * m.gram.trace *
+                   m.inverse_volume;
   Vec8x3 Q[4];
-  for (int k = 0; k < 4; ++k) q[k] = scaled(v.g[k], Vec8(pass.dt)) - times(L, x_half.g[k]);
-  if (pass.layout.remembers) {
-    double* kept = state + 8 * pass.layout.hourglass();
-    sums.hourglass += of_alive(hourglass_stiffness(kept, q, R, k_h, Q));
-  } else {
-    sums.hourglass += of_alive(hourglass_viscosity(c, q, k_h, pass.dt, length, Q));
-  }
-  SolidModes F = solid_forces(now, x, sigma, Q, inverse_volume);
-  const auto of_alive3 = [&](const Vec8x3& a) {
-    return Vec8x3{of_alive(a.x), of_alive(a.y), of_alive(a.z)};
-  };
-  for (Vec8x3& a : F.a) a = of_alive3(a);
-  for (Vec8x3& g : F.g) g = of_alive3(g);
-  if (any(less(shrunk_to, select(there, Vec8(c.smallest_ratio), Vec8(0.0))))) {
-    forget_collapsed(pass.layout, alive, state);
-  }
-  corners_of(F, at_corner);
-  for (int a = 0; a < 8; ++a) scatter_corner(pass.f, corners, a, at_corner[a]);
-
-  const Vec8 omega2 = solid_omega2(c, gram, x, inverse_volume, inverse_mass, k_h);
-  const Vec8 damped = sqrt(Vec8(1.0) + bulk.zeta * bulk.zeta) + bulk.zeta;
-  note_extremes(of_alive(omega2 * damped * damped), shrunk_to, block, sums);
+  add_hourglass(pass, m, R, k_h, state, sums, Q);
+  SolidModes F = solid_forces(m.now, m.x, sigma, Q, m.inverse_volume);
+  const Vec8 omega2 = solid_omega2(c, m.gram, m.x, m.inverse_volume, m.inverse_mass, k_h);
+  finish_block(pass, m, corners, block, F, omega2 * damped_factor(bulk.zeta), state, sums);
 }
 
+/// One block of eight elements with eight points and a mean dilatation, see solid_element.hpp.
 template <bool plastic>
+GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
+                                     SolidLaneSums& sums) {
+  const SolidConstants& c = *pass.constants;
+  const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
+  double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
+  const SolidMotion m = solid_motion(pass, corners, state);
+  const Vec8 mean_e = Vec8(1.0 / 3.0) * (m.e.xx + m.e.yy + m.e.zz);
+  SolidModes F{};
+  Vec8 mean_stress(0.0);  // times the volume
+  Vec8 largest(0.0);      // of the Gram matrices, times the volume
+  for (int point = 0; point < 8; ++point) {
+    const SolidPlace at = gauss_place(point);
+    const PointGradient half = point_gradient(m.x_half, at);
+    const Tensor L = gradient_at(half, m.v, at, Vec8(pass.dt));
+    Symmetric<Vec8> e = symmetric_part(L);
+    const Vec8 change = mean_e - Vec8(1.0 / 3.0) * (e.xx + e.yy + e.zz);
+    e.xx += change;
+    e.yy += change;
+    e.zz += change;
+    Vec8 work;
+    Vec8 plastic_work;
+    double* kept = state + 8 * pass.layout.stress(point);
+    const Symmetric<Vec8> sigma =
+        solid_stress<plastic>(c, kept, e, rotation_of(L), work, plastic_work);
+    sums.internal += m.of_alive(work * half.det);
+    if constexpr (plastic) sums.plastic += m.of_alive(plastic_work * half.det);
+    const PointGradient now = point_gradient(m.x, at);
+    const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
+    mean_stress += p * now.det;
+    largest += largest_gram(now, at) * now.det;
+    add_point_forces(now, at, sigma, p, F);
+  }
+  const BulkViscosity bulk = add_bulk_viscosity(pass, m, state, sums);
+  add_mean_stress(m.now, mean_stress * m.inverse_volume - bulk.q, F);
+  // tr of the mean gradient and the deviator at each point are bounded apart.
+  const Vec8 omega2 =
+      Vec8(8.0) * m.inverse_mass *
+      (Vec8(c.law.bulk) * m.gram.trace * m.inverse_volume + Vec8(2.0 * c.law.shear) * largest);
+  finish_block(pass, m, corners, block, F, omega2 * damped_factor(bulk.zeta), state, sums);
+}
+
+template <bool plastic, int points>
 GANNET_INLINE void solid_blocks(const SolidPass& pass, std::int32_t begin, std::int32_t end,
                                 SolidLaneSums& sums) {
   for (std::int32_t block = begin; block < end; ++block) {
     if (block + blocks_ahead < end) call_for(pass, block + blocks_ahead);
-    solid_block<plastic>(pass, block, sums);
+    if constexpr (points == 1) {
+      one_point_block<plastic>(pass, block, sums);
+    } else {
+      eight_point_block<plastic>(pass, block, sums);
+    }
   }
 }
 
@@ -272,10 +255,13 @@ GANNET_INLINE void solid_blocks(const SolidPass& pass, std::int32_t begin, std::
 __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t begin,
                                           std::int32_t end, SolidSums& out) {
   SolidLaneSums sums;
+  const bool one = pass.layout.n_points == 1;
   if (pass.constants->plastic) {
-    solid_blocks<true>(pass, begin, end, sums);
+    if (one) solid_blocks<true, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<true, 8>(pass, begin, end, sums);
   } else {
-    solid_blocks<false>(pass, begin, end, sums);
+    if (one) solid_blocks<false, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<false, 8>(pass, begin, end, sums);
   }
   out = {};
   out.internal = sum(sums.internal);
