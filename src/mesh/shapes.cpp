@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/line_shapes.hpp"
 #include "mesh/shape_numbers.hpp"
 #include "mesh/volume_shapes.hpp"
 
@@ -228,6 +229,7 @@ std::vector<Key> shape_keys() {
                 elements_key("number of elements along x, y and z")}},
   };
   for (Key& key : volume_shape_keys()) keys.push_back(std::move(key));
+  for (Key& key : line_shape_keys()) keys.push_back(std::move(key));
   return keys;
 }
 
@@ -243,6 +245,10 @@ SurfaceMesh shape_surface(const Keys& shape) {
   }
   if (is_volume_shape(shape)) {
     shape.complain(names[0], "is a volume; a surface is wanted: plate, plane, wedge or box");
+    return {};
+  }
+  if (is_line_shape(shape)) {
+    shape.complain(names[0], "is a line; a surface is wanted: plate, plane, wedge or box");
     return {};
   }
   const Keys keys = shape.map(names[0]);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "case_values.hpp"
+#include "mesh/line_shapes.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
@@ -178,4 +179,16 @@ TEST_CASE("shapes: what makes no surface is a located mistake", "[mesh][errors]"
                              numbers("elements", {1, 1, 1})})) ==
         "case.yaml:14:5: parts.skin.shape.box.to: z = 1 m must be greater than that of 'from', 1 "
         "m");
+}
+
+TEST_CASE("shapes: a line in legs of equal elements", "[mesh]") {
+  const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 3}};
+  const int n[] = {2, 3};
+  const LineMesh mesh = polyline_mesh(corners, n);
+  REQUIRE(mesh.points.size() == 6);
+  CHECK(mesh.cells == std::vector<Index>{0, 1, 1, 2, 2, 3, 3, 4, 4, 5});
+  CHECK((mesh.points[1] - Vec3(0.5, 0, 0)).norm() < rounding);
+  CHECK((mesh.points[4] - Vec3(1, 0, 2)).norm() < rounding);
+  CHECK(mesh.points[2] == corners[1]);
+  CHECK(mesh.points[5] == corners[2]);
 }
