@@ -53,6 +53,7 @@ std::vector<Effect> make_table() {
       sea_effect(),                // carries what fills and walls have made
       shell_effect(),              //
       solid_effect(),              //
+      cable_effect(),              //
       plane_contact_effect(),      //
       contacts_effect(),           //
       pressure_effect(),           //

@@ -14,4 +14,8 @@ Effect shell_effect();
 /// the volume that the part's `shape` gives. Also brings the keys of solids under "materials.*".
 Effect solid_effect();
 
+/// parts.NAME.cable: {EA, mass_per_length, tension_only, ...}: parts made of two-node elements
+/// under axial force over the line that the part's `shape` gives.
+Effect cable_effect();
+
 }  // namespace gannet

@@ -65,6 +65,8 @@ struct Entries {
   LedgerEntry* plastic = nullptr;
   LedgerEntry* hourglass = nullptr;
   LedgerEntry* viscous = nullptr;
+  LedgerEntry* damping = nullptr;
+  LedgerEntry* eroded = nullptr;
 };
 
 Entries entries_of(Ledger& ledger, const ElementPart& element, const std::string& part) {
@@ -72,6 +74,8 @@ Entries entries_of(Ledger& ledger, const ElementPart& element, const std::string
   e.internal = &ledger.entry("internal", part);
   if (element.hourglass) e.hourglass = &ledger.entry("hourglass", part);
   if (element.viscous) e.viscous = &ledger.entry("bulk_viscosity", part);
+  if (element.damping) e.damping = &ledger.entry("damping", part);
+  if (element.eroded) e.eroded = &ledger.entry("eroded", part);
   if (element.plastic) {
     e.plastic = &ledger.entry("plastic", part);
     e.plastic->within_other = true;
@@ -84,6 +88,8 @@ void add(const ElementWork& work, const Entries& to) {
   if (to.plastic != nullptr) to.plastic->value += work.plastic;
   if (to.hourglass != nullptr) to.hourglass->value += work.hourglass;
   if (to.viscous != nullptr) to.viscous->value += work.viscous;
+  if (to.damping != nullptr) to.damping->value += work.damping;
+  if (to.eroded != nullptr) to.eroded->value += work.eroded;
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ struct ElementWork {
   double plastic = 0;  ///< part of internal
   double hourglass = 0;
   double viscous = 0;  ///< bulk viscosity
+  double damping = 0;  ///< of the material
+  double eroded = 0;   ///< left with elements that broke
 };
 
 /// An element and the step that it allows.
@@ -36,6 +38,8 @@ struct ElementPart {
   bool plastic = false;    ///< has an entry for plastic work
   bool hourglass = false;  ///< for hourglass work
   bool viscous = false;    ///< for the work of bulk viscosity
+  bool damping = false;    ///< for the work of damping
+  bool eroded = false;     ///< for what leaves with elements that break
   std::function<ElementWork(const Step&)> pass;
   std::function<double()> stable_dt;
   std::function<Index()> limiting;                                  ///< element behind stable_dt

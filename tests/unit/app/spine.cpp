@@ -101,11 +101,14 @@ struct HungBody {
   }
 
   void make_truss() {
-    truss = {.name = "truss", .EA = 2e6, .mu = 4.0, .dt_factor = 0.8, .nodes = {top}};
-    for (Index k = 1; k <= n_elements; ++k) truss.nodes.push_back(bottom + k);
+    truss = {.name = "truss", .EA = 2e6, .mu = 4.0, .dt_factor = 0.8};
+    for (Index k = 1; k <= n_elements; ++k) {
+      const Index last = k == 1 ? top : bottom + k - 1;
+      truss.ends.insert(truss.ends.end(), {last, bottom + k});
+    }
     rest_at_present_length(truss, scene.nodes);
     add_truss_masses(truss, scene.nodes);
-    spring = {.name = "spring", .EA = 1500, .mu = 0.05, .nodes = {bottom, weight}};
+    spring = {.name = "spring", .EA = 1500, .mu = 0.05, .ends = {bottom, weight}};
     rest_at_present_length(spring, scene.nodes);
     scene.nodes.x[weight].w = 5;
   }

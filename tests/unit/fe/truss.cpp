@@ -17,10 +17,10 @@ void chain(Scene& scene, TrussBlock& block, int n, double l) {
   for (auto* lines : {&nodes.x, &nodes.v, &nodes.f}) {
     lines->assign(static_cast<std::size_t>(n + 1), {});
   }
-  block.nodes.clear();
+  block.ends.clear();
   for (int i = 0; i <= n; ++i) {
     nodes.x[static_cast<std::size_t>(i)].x = l * i;
-    block.nodes.push_back(i);
+    if (i > 0) block.ends.insert(block.ends.end(), {i - 1, i});
   }
   rest_at_present_length(block, nodes);
   add_truss_masses(block, nodes);
@@ -35,7 +35,7 @@ TEST_CASE("truss: force, energy and stable step by hand", "[fe]") {
   chain(scene, block, 1, 0.1);
   CHECK(scene.nodes.x[0].w == Approx(0.025).epsilon(1e-15));
   scene.nodes.x[1] = {0.066, 0.088, 0, scene.nodes.x[1].w};  // length 0.11, direction 3-4-5
-  const double energy = truss_pass(block, scene.nodes);
+  const double energy = truss_pass(block, scene.nodes, 0).internal;
   // F = 2e6 0.01/0.1 = 2e5, W = F 0.01/2 = 1000.
   CHECK(block.force[0] == Approx(2e5).epsilon(1e-13));
   CHECK(energy == Approx(1000).epsilon(1e-13));
@@ -50,13 +50,13 @@ TEST_CASE("truss: a cable does not push", "[fe]") {
   TrussBlock block{.name = "line", .EA = 2e6, .mu = 0.5, .tension_only = true};
   chain(scene, block, 2, 0.1);
   scene.nodes.x[1].x = 0.09;
-  const double energy = truss_pass(block, scene.nodes);
+  const double energy = truss_pass(block, scene.nodes, 0).internal;
   CHECK(block.force[0] == 0);
   CHECK(block.energy[0] == 0);
   CHECK(block.force[1] == Approx(2e5).epsilon(1e-12));
   CHECK(energy == Approx(1000).epsilon(1e-12));
   block.tension_only = false;
-  truss_pass(block, scene.nodes);
+  truss_pass(block, scene.nodes, 0);
   CHECK(block.force[0] == Approx(-2e5).epsilon(1e-12));
 }
 
@@ -93,4 +93,48 @@ TEST_CASE("truss: a swinging chain keeps its energy", "[fe]") {
   CHECK(model.vote.who.substr(0, 14) == "chain: element");
   // The leapfrog's energy error at dt = 0.9 of the stable step oscillates, bounded.
   CHECK(worst < 0.02 * start);
+}
+
+TEST_CASE("truss: prestrain, damping and its stable step by hand", "[fe]") {
+  Scene scene;
+  TrussBlock block{.name = "rod",
+                   .EA = 2e6,
+                   .mu = 0.5,
+                   .prestrain = 0.01,
+                   .damping_ratio = 0.2,
+                   .damping_time = 1e-5};
+  chain(scene, block, 1, 0.101);
+  CHECK(block.l0[0] == Approx(0.1).epsilon(1e-14));
+  truss_pass(block, scene.nodes, 0);
+  CHECK(block.force[0] == Approx(2e4).epsilon(1e-12));
+  // beta + zeta l0/c = 1e-5 + 0.2 0.1/2000 = 2e-5 s; the rod grows by 1 mm in 1 ms.
+  scene.nodes.x[1].x += 1e-3;
+  const ElementWork work = truss_pass(block, scene.nodes, 1e-3);
+  CHECK(block.force[0] == Approx(4e4 + 2e7 * 2e-5 * 1).epsilon(1e-12));
+  CHECK(work.internal == Approx(0.5 * 2e7 * (4e-6 - 1e-6)).epsilon(1e-9));
+  CHECK(work.damping == Approx(0.5 * 400 * 1e-3).epsilon(1e-9));
+  // omega = 2 c/l0 = 4e4, xi = 2e-5 4e4/2 = 0.4.
+  CHECK(block.shortest == Approx(5e-5 * (std::sqrt(1.16) - 0.4)).epsilon(1e-12));
+}
+
+TEST_CASE("truss: an element that breaks carries nothing and hands its energy over", "[fe]") {
+  Scene scene;
+  TrussBlock block{.name = "line", .EA = 2e6, .mu = 0.5, .tension_only = true, .strength = 1.5e5};
+  chain(scene, block, 2, 0.1);
+  scene.nodes.x[2].x += 0.005;  // F = 1e5
+  ElementWork work = truss_pass(block, scene.nodes, 1e-5);
+  CHECK(block.n_broken == 0);
+  CHECK(work.internal == Approx(250).epsilon(1e-10));
+  scene.nodes.x[2].x += 0.003;  // F would be 1.6e5
+  for (Line& f : scene.nodes.f) f = {};
+  work = truss_pass(block, scene.nodes, 1e-5);
+  CHECK(block.n_broken == 1);
+  CHECK(block.broken[1] == 1);
+  CHECK(work.internal == Approx(-250).epsilon(1e-10));
+  CHECK(work.eroded == Approx(250 + 0.5 * 1e5 * 0.003).epsilon(1e-10));
+  CHECK(scene.nodes.f[2].x == 0);
+  CHECK(scene.nodes.f[1].x == 0);
+  work = truss_pass(block, scene.nodes, 1e-5);
+  CHECK(block.n_broken == 1);
+  CHECK(work.eroded == 0);
 }

@@ -1,0 +1,214 @@
+// Cables and trusses as a part of a case: keys, drafts, state and operations.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "fe/effects.hpp"
+#include "fe/element_part.hpp"
+#include "fe/truss.hpp"
+#include "material/elastic_plastic.hpp"
+#include "mesh/line_shapes.hpp"
+#include "mesh/mesh_keys.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr Dimension mass_per_length{{-1, 1, 0, 0, 0}};
+
+std::vector<Key> cable_keys() {
+  return {{.name = "material",
+           .kind = Kind::reference,
+           .text = "solid that it is made of, with 'area'; else EA and mass_per_length",
+           .refers_to = "materials"},
+          {.name = "area",
+           .unit = dim::area,
+           .text = "area of the section, with 'material'",
+           .limits = positive()},
+          {.name = "EA", .unit = dim::force, .text = "axial stiffness", .limits = positive()},
+          {.name = "mass_per_length",
+           .unit = mass_per_length,
+           .text = "mass per unstretched length",
+           .limits = positive()},
+          {.name = "tension_only",
+           .kind = Kind::flag,
+           .text = "shortened elements carry nothing; no: a truss that also pushes",
+           .fallback = "yes"},
+          {.name = "prestrain",
+           .text = "strain in the positions at the start; below 0 the line is slack",
+           .fallback = "0",
+           .limits = {.lowest = -1, .highest = 1, .lowest_open = true, .highest_open = true}},
+          {.name = "damping_ratio",
+           .text = "internal damping, as a ratio of the highest mode of each element",
+           .fallback = "0",
+           .limits = between(0, 2)},
+          {.name = "damping_time",
+           .unit = dim::time,
+           .text = "internal damping over stiffness (beta)",
+           .fallback = "0 s",
+           .limits = at_least(0)},
+          {.name = "strength",
+           .unit = dim::force,
+           .text = "force at which an element breaks; never unless said",
+           .limits = positive()},
+          {.name = "dt_factor",
+           .text = "share of the stable step of the elements that is used",
+           .fallback = "0.9",
+           .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
+}
+
+Schema schema() {
+  Schema s = elastic_plastic_schema();
+  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
+  s.push_back({"parts.*",
+               {.name = "cable",
+                .kind = Kind::map,
+                .text = "the part is a line of cable or truss elements",
+                .keys = cable_keys()}});
+  s.push_back({"parts.*", initial_velocity_key()});
+  return s;
+}
+
+void add_parts(const Keys& root, Draft& draft) {
+  for (const Keys& part : parts_with(root, "cable")) {
+    const LineMesh mesh = line_mesh(part);
+    if (mesh.empty()) continue;  // the mesh has complained
+    PartDraft p;
+    p.name = part.name();
+    p.kind = "cable";
+    p.material = part.map("cable").word("material");
+    p.where = part.where();
+    p.cell = Cell::line;
+    p.points = mesh.points;
+    p.connectivity = mesh.cells;
+    p.velocity = initial_velocity(part, p.points);
+    draft.parts.push_back(std::move(p));
+  }
+}
+
+/// EA and mass per length: said, or of a material over an area. False after a mistake.
+bool read_stiffness(const Keys& root, const Keys& cable, TrussBlock& block) {
+  const bool said = cable.has("EA") || cable.has("mass_per_length");
+  const bool solid = cable.has("material") || cable.has("area");
+  const char* pair = said ? "EA and mass_per_length" : "material and area";
+  if (said == solid) {
+    cable.mistakes().add(cable.where(),
+                         fmt::format("{}: its stiffness is {}; either EA and mass_per_length, or "
+                                     "material and area, are wanted",
+                                     cable.path(), said ? "said twice" : "missing"));
+    return false;
+  }
+  for (const char* key : {said ? "EA" : "material", said ? "mass_per_length" : "area"}) {
+    if (cable.has(key)) continue;
+    cable.mistakes().add(cable.where(),
+                         fmt::format("{}: {} is missing; {} go together", cable.path(), key, pair));
+    return false;
+  }
+  if (said) {
+    block.EA = cable.number("EA");
+    block.mu = cable.number("mass_per_length");
+    return true;
+  }
+  const ElasticPlastic material =
+      read_elastic_plastic(root.map("materials").map(cable.word("material")));
+  block.EA = material.E * cable.number("area");
+  block.mu = material.rho * cable.number("area");
+  return true;
+}
+
+TrussBlock read_block(const Keys& cable) {
+  TrussBlock block;
+  block.tension_only = cable.flag("tension_only");
+  block.prestrain = cable.number("prestrain");
+  block.damping_ratio = cable.number("damping_ratio");
+  block.damping_time = cable.number("damping_time");
+  block.strength = cable.number_or("strength", 0);
+  block.dt_factor = cable.number("dt_factor");
+  return block;
+}
+
+/// What a pass takes from the level before is tracked; the force is also shown.
+void track(Scene& scene, TrussBlock& block) {
+  const auto cells = [&](const char* name, const char* unit, const char* vtk, Array<double>& a) {
+    Field field =
+        plain_field(block.name + "." + name, unit, vtk, Over::cells, a, 1, GhostRule::none);
+    field.part = block.part;
+    field.owner = "cable";
+    field.resize = nullptr;
+    scene.fields.push_back(std::move(field));
+  };
+  cells("length", "m", "", block.length);
+  cells("force", "N", "AxialForce", block.force);
+  cells("energy", "J", "", block.energy);
+  if (block.damping_ratio > 0 || block.damping_time > 0) {
+    cells("damping", "N", "", block.damping);
+  }
+  if (block.strength > 0) cells("broken", "", "Broken", block.broken);
+}
+
+/// The largest force and the number of broken elements, for histories.
+void add_measures(Scene& scene, const TrussBlock& block) {
+  scene.measures.push_back({block.name + ".tension", "N", {"value"}, [&block](double* value) {
+                              *value = 0;
+                              for (const double F : block.force) *value = std::max(*value, F);
+                            }});
+  if (!(block.strength > 0)) return;
+  scene.measures.push_back({block.name + ".broken", "", {"value"}, [&block](double* value) {
+                              *value = 0;
+                              for (const double b : block.broken) *value += b;
+                            }});
+}
+
+void state(const Keys& root, Scene& scene) {
+  for (const Keys& keys : parts_with(root, "cable")) {
+    const int number = scene.part_number(keys.name());
+    if (number < 0) continue;
+    const Part& part = scene.parts[static_cast<std::size_t>(number)];
+    TrussBlock made = read_block(keys.map("cable"));
+    if (!read_stiffness(root, keys.map("cable"), made)) continue;
+    TrussBlock& block = scene.store.get<TrussBlocks>().list.emplace_back(std::move(made));
+    block.name = part.name;
+    block.part = number;
+    block.ends = part.connectivity;
+    try {
+      rest_at_present_length(block, scene.nodes);
+    } catch (const std::invalid_argument& e) {
+      keys.complain("cable", e.what());
+      continue;
+    }
+    add_truss_masses(block, scene.nodes);
+    track(scene, block);
+    add_measures(scene, block);
+  }
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!scene.store.has<TrussBlocks>()) return;
+  for (TrussBlock& block : scene.store.get<TrussBlocks>().list) {
+    ElementPart part{.kind = "cable",
+                     .part = block.part,
+                     .reads = {"x"},
+                     .damping = block.damping_ratio > 0 || block.damping_time > 0,
+                     .eroded = block.strength > 0};
+    part.pass = [&scene, &block](const Step& step) {
+      return truss_pass(block, scene.nodes, step.dt_old);
+    };
+    part.stable_dt = [&block] { return block.dt_factor * block.shortest; };
+    part.limiting = [&block] { return block.limiting; };
+    add_element_operation(root, scene, models, std::move(part));
+  }
+}
+
+}  // namespace
+
+Effect cable_effect() {
+  return {.name = "cable",
+          .schema = schema,
+          .parts = add_parts,
+          .state = state,
+          .operations = operations};
+}
+
+}  // namespace gannet
