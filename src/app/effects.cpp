@@ -54,6 +54,7 @@ std::vector<Effect> make_table() {
       shell_effect(),              //
       solid_effect(),              //
       cable_effect(),              //
+      beam_effect(),               //
       plane_contact_effect(),      //
       contacts_effect(),           //
       pressure_effect(),           //

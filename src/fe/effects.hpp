@@ -18,4 +18,8 @@ Effect solid_effect();
 /// under axial force over the line that the part's `shape` gives.
 Effect cable_effect();
 
+/// parts.NAME.beam: {material, section, up, ...}: parts made of two-node beams over the line that
+/// the part's `shape` gives.
+Effect beam_effect();
+
 }  // namespace gannet

@@ -1,0 +1,252 @@
+#include "fe/beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fe/element_blocks.hpp"
+
+namespace gannet {
+
+namespace {
+
+Vec3 at(std::span<const Line> x, Index node) { return xyz(x[static_cast<std::size_t>(node)]); }
+
+Quaternion quaternion_of(const Line& line) { return {line.x, line.y, line.z, line.w}; }
+
+/// 12 E I/(G A_s l^2); 0 where the section is stiff in shear.
+double shear_ratio(const BeamLaw& law, double I, double A_s, double l) {
+  return A_s > 0 ? 12 * law.E * I / (law.G * A_s * l * l) : 0;
+}
+
+BendingStiffness bending_of(const BeamLaw& law, double I, double A_s, double l0) {
+  const double phi = shear_ratio(law, I, A_s, l0);
+  const double k = law.E * I / (l0 * (1 + phi));
+  return {k * (4 + phi), k * (2 - phi)};
+}
+
+/// Rotation vector of a unit quaternion with w >= 0.
+Vec3 rotation_vector(const Quaternion& q) {
+  const double s = q.vec().norm();
+  // 2 atan2(s, w)/s; for small s by its series, the next term of which is below rounding.
+  const double factor = s > 1e-5 ? 2 * std::atan2(s, q.w()) / s : 2 + s * s / 3;
+  return factor * q.vec();
+}
+
+/// T^T m, T the map from the spin of a rotation to the rate of its vector:
+///   T = 1 - theta/2 x + c theta x theta x,  c = (1 - (|theta|/2) cot(|theta|/2))/|theta|^2
+Vec3 conjugate_to_spin(const Vec3& theta, const Vec3& m) {
+  const double t = theta.norm();
+  const double c = t > 1e-2 ? (1 - 0.5 * t / std::tan(0.5 * t)) / (t * t) : 1.0 / 12 + t * t / 720;
+  const Vec3 cross = theta.cross(m);
+  return m + 0.5 * cross + c * theta.cross(cross);
+}
+
+/// Axes of the section: x along r, z near `up`.
+Quaternion section_frame(const Vec3& r, const Vec3& up) {
+  Vec3 z = up;
+  const Vec3 x = r.normalized();
+  if (up.isZero(0)) z = std::abs(x.z()) > 0.999 ? Vec3::UnitX() : Vec3::UnitZ();
+  const Vec3 y = z.cross(x);
+  if (!(y.norm() > 1e-6 * z.norm())) return {0, 0, 0, 0};
+  Mat3 axes;
+  axes << x, y.normalized(), x.cross(y).normalized();
+  return Quaternion(axes);
+}
+
+/// Where an element is and what its ends have turned against it.
+struct BeamPose {
+  Quaternion frame;
+  Vec3 e1 = Vec3::Zero();
+  double l = 0;
+  Vec3 theta_1 = Vec3::Zero();
+  Vec3 theta_2 = Vec3::Zero();
+};
+
+/// t_1, t_2: triads of the nodes; r: chord [m].
+BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r) {
+  BeamPose pose;
+  pose.l = r.norm();
+  pose.e1 = pose.l > 0 ? Vec3(r / pose.l) : Vec3(t_1 * Vec3::UnitX());
+  if (t_1.dot(t_2) < 0) t_2.coeffs() *= -1;
+  Quaternion mean;
+  mean.coeffs() = t_1.coeffs() + t_2.coeffs();
+  mean.normalize();
+  // The smallest rotation that takes the mean axis to the chord.
+  const Vec3 axis = mean * Vec3::UnitX();
+  const Vec3 v = axis.cross(pose.e1);
+  const Quaternion turn = Quaternion(1 + axis.dot(pose.e1), v.x(), v.y(), v.z()).normalized();
+  pose.frame = turn * mean;
+  const auto against = [&](const Quaternion& t) {
+    Quaternion d = pose.frame.conjugate() * t;
+    if (d.w() < 0) d.coeffs() *= -1;
+    return rotation_vector(d);
+  };
+  pose.theta_1 = against(t_1);
+  pose.theta_2 = against(t_2);
+  return pose;
+}
+
+/// The highest frequency of a free element, squared, from its own lumped mass m = rho A l0/2 and
+/// rotary inertia I_r; l: present length [m], N: axial force [N].
+///   along it    2 E A/(l0 m)
+///   torsion     2 G J/(l0 I_r)
+///   bending     12 E I/(l0 (1 + phi)) (2/(m l^2) + 1/(2 I_r)) with both ends turned alike, or
+///               2 E I/(l0 I_r) against each other; a tension adds 4 N/(l m) to the former
+double omega2_of(const BeamLaw& law, double l0, double l, double N) {
+  const BeamSection& s = law.section;
+  const double m = 0.5 * law.rho * s.A * l0;
+  const double I = std::max(s.I_y, s.I_z);
+  const double I_r = law.rotary_inertia * m * I / s.A;
+  const auto bending = [&](double I_s, double A_s) {
+    const double k = 12 * law.E * I_s / (l0 * (1 + shear_ratio(law, I_s, A_s, l0)));
+    return k * (2 / (m * l * l) + 0.5 / I_r) + 4 * std::max(N, 0.0) / (l * m);
+  };
+  return std::max({2 * law.E * s.A / (l0 * m), 2 * law.G * s.J / (l0 * I_r),
+                   2 * law.E * I / (l0 * I_r), bending(s.I_y, s.A_z), bending(s.I_z, s.A_y)});
+}
+
+/// Turns the nodes of a block by omega dt_old.
+void turn_nodes(BeamBlock& block, const Nodes& nodes, double dt_old) {
+  parallel_for(block.nodes.size(), node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(block.nodes.begin + k);
+      Line& line = block.turned[static_cast<std::size_t>(k)];
+      const Vec3 half = 0.5 * dt_old * xyz(nodes.omega[i]);
+      const Quaternion q =
+          (Quaternion(1, half.x(), half.y(), half.z()) * quaternion_of(line)).normalized();
+      line = {q.w(), q.x(), q.y(), q.z()};
+    }
+  });
+}
+
+/// Keeps the section forces of element e at its middle.
+void show_forces(BeamBlock& block, Index e, const BeamForces& f, double inverse_l) {
+  const Vec3 sum = f.M_1 + f.M_2;
+  const Vec3 middle = 0.5 * (f.M_2 - f.M_1);
+  double* out = &block.forces[6 * static_cast<std::size_t>(e)];
+  out[0] = f.N;
+  out[1] = -sum.z() * inverse_l;  // force across that balances the moments
+  out[2] = sum.y() * inverse_l;
+  for (Eigen::Index i = 0; i < 3; ++i) out[3 + i] = middle[i];
+}
+
+/// Elements [begin, end): forces and moments added.
+BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
+  BeamSums sums;
+  for (Index e = begin; e < end; ++e) {
+    const auto k = static_cast<std::size_t>(e);
+    const Index a = block.ends[2 * k];
+    const Index b = block.ends[2 * k + 1];
+    const auto triad = [&](Index i) -> Quaternion {
+      return quaternion_of(block.turned[static_cast<std::size_t>(i - block.nodes.begin)]) *
+             block.frame[k];
+    };
+    const BeamPose pose = pose_of(triad(a), triad(b), at(nodes.x, b) - at(nodes.x, a));
+    double energy = 0;
+    const BeamForces f = beam_forces(block.law, block.l0[k], pose.l - block.l0[k], pose.theta_1,
+                                     pose.theta_2, energy);
+    sums.energy += energy;
+    const Vec3 M_1 = pose.frame * f.M_1;
+    const Vec3 M_2 = pose.frame * f.M_2;
+    const double inverse_l = pose.l > 0 ? 1 / pose.l : 0.0;
+    const Vec3 pull = f.N * pose.e1 - (M_1 + M_2).cross(pose.e1) * inverse_l;
+    add_xyz(nodes.f[static_cast<std::size_t>(a)], pull);
+    add_xyz(nodes.f[static_cast<std::size_t>(b)], -pull);
+    add_xyz(nodes.torque[static_cast<std::size_t>(a)], -M_1);
+    add_xyz(nodes.torque[static_cast<std::size_t>(b)], -M_2);
+    show_forces(block, e, f, inverse_l);
+    const double omega2 = omega2_of(block.law, block.l0[k], pose.l, f.N);
+    if (omega2 <= sums.omega2) continue;
+    sums.omega2 = omega2;
+    sums.element = e;
+  }
+  return sums;
+}
+
+}  // namespace
+
+BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
+                       const Vec3& theta_2, double& energy) {
+  const BeamSection& s = law.section;
+  const BendingStiffness about_y = bending_of(law, s.I_y, s.A_z, l0);
+  const BendingStiffness about_z = bending_of(law, s.I_z, s.A_y, l0);
+  BeamForces f;
+  f.N = law.E * s.A * u / l0;
+  const double T = law.G * s.J / l0 * (theta_2.x() - theta_1.x());
+  const Vec3 k4(0, about_y.k4, about_z.k4);
+  const Vec3 k2(0, about_y.k2, about_z.k2);
+  const Vec3 m_1 = k4.cwiseProduct(theta_1) + k2.cwiseProduct(theta_2) - T * Vec3::UnitX();
+  const Vec3 m_2 = k2.cwiseProduct(theta_1) + k4.cwiseProduct(theta_2) + T * Vec3::UnitX();
+  energy = 0.5 * (f.N * u + m_1.dot(theta_1) + m_2.dot(theta_2));
+  f.M_1 = conjugate_to_spin(theta_1, m_1);
+  f.M_2 = conjugate_to_spin(theta_2, m_2);
+  // The frame turns about its x axis by the mean of the two ends.
+  const double excess = 0.5 * (f.M_1.x() + f.M_2.x());
+  f.M_1.x() -= excess;
+  f.M_2.x() -= excess;
+  return f;
+}
+
+BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<const Line> x,
+                          const BeamLaw& law, const Vec3& up) {
+  BeamBlock block;
+  block.law = law;
+  block.nodes = range;
+  block.ends.assign(ends.begin(), ends.end());
+  const std::size_t n = ends.size() / 2;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 r = at(x, ends[2 * k + 1]) - at(x, ends[2 * k]);
+    const std::string who = "element " + std::to_string(k + 1);
+    if (!(r.norm() > 0)) throw std::invalid_argument(who + " has no length");
+    block.l0.push_back(r.norm());
+    block.frame.push_back(section_frame(r, up));
+    if (block.frame.back().coeffs().isZero(0)) {
+      throw std::invalid_argument(who + " lies along 'up', which says nothing about its section");
+    }
+  }
+  block.turned.assign(static_cast<std::size_t>(range.size()), {1, 0, 0, 0});
+  block.energy.assign(1, 0);
+  block.forces.assign(6 * n, 0);
+  block.colouring = colour_chunks(block.ends, 2, beam_chunk);
+  block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
+  return block;
+}
+
+void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
+  const BeamSection& s = block.law.section;
+  const double r2 = std::max(s.I_y, s.I_z) / s.A;
+  for (std::size_t k = 0; k < block.ends.size(); ++k) {
+    const auto i = static_cast<std::size_t>(block.ends[k]);
+    const double m = 0.5 * block.law.rho * s.A * block.l0[k / 2];
+    nodes.x[i].w += m;
+    nodes.torque[i].w += block.law.rotary_inertia * m * r2;
+  }
+}
+
+ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {
+  turn_nodes(block, nodes, dt_old);
+  const Index n = block.n_elements();
+  for_chunks_by_colour(block.colouring, n, [&](Index chunk, Index begin, Index end) {
+    block.sums[static_cast<std::size_t>(chunk)] =
+        pass_over(block, nodes, lanes * begin, std::min(n, lanes * end));
+  });
+  double energy = 0;
+  block.omega2 = 0;
+  block.limiting = -1;
+  for (const BeamSums& s : block.sums) {
+    energy += s.energy;
+    if (s.omega2 <= block.omega2) continue;
+    block.omega2 = s.omega2;
+    block.limiting = s.element;
+  }
+  const ElementWork work{.internal = energy - block.energy[0]};
+  block.energy[0] = energy;
+  return work;
+}
+
+double stable_step(const BeamBlock& block) {
+  return block.law.dt_factor * 2 / std::sqrt(block.omega2);
+}
+
+}  // namespace gannet

@@ -1,0 +1,156 @@
+#include "fe/beam_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace gannet {
+
+namespace {
+
+/// kappa of a full circle at nu = 0.3: 6 (1 + nu)/(7 + 6 nu), Cowper 1966, J. Appl. Mech. 33.
+constexpr double kappa_round = 7.8 / 8.8;
+
+double fourth(double x) { return x * x * x * x; }
+
+Key side(const char* name, const char* text) {
+  return {.name = name, .unit = dim::length, .text = text, .required = true, .limits = positive()};
+}
+
+Key map_of(const char* name, const char* text, std::vector<Key> keys) {
+  return {.name = name, .kind = Kind::map, .text = text, .keys = std::move(keys)};
+}
+
+constexpr Dimension fourth_power{{4, 0, 0, 0, 0}};
+
+Key moment_of_area(const char* name, const char* text) {
+  return {.name = name, .unit = fourth_power, .text = text, .required = true, .limits = positive()};
+}
+
+/// A wall t that fits into the least of the sides.
+bool wall_fits(const Keys& keys, double t, double side) {
+  if (2 * t <= side) return true;
+  keys.complain("wall", fmt::format("{:g} m is more than half of {:g} m, the side", t, side));
+  return false;
+}
+
+BeamSection general_section(const Keys& keys) {
+  return {.A = keys.number("area"),
+          .I_y = keys.number("I_y"),
+          .I_z = keys.number("I_z"),
+          .J = keys.number("J"),
+          .A_y = keys.number_or("shear_area_y", 0),
+          .A_z = keys.number_or("shear_area_z", 0)};
+}
+
+bool complete(const Keys& keys, std::initializer_list<const char*> names) {
+  return std::all_of(names.begin(), names.end(), [&](const char* n) { return keys.has(n); });
+}
+
+}  // namespace
+
+BeamSection rectangle_section(double b, double h) {
+  const double a = std::max(b, h);
+  const double t = std::min(b, h);
+  double sum = 0;
+  for (int n = 1; n < 20; n += 2) {
+    sum += std::tanh(0.5 * n * std::numbers::pi * a / t) / std::pow(n, 5);
+  }
+  const double J = a * t * t * t / 3 * (1 - 192 * t / (std::pow(std::numbers::pi, 5) * a) * sum);
+  return {.A = b * h,
+          .I_y = b * h * h * h / 12,
+          .I_z = h * b * b * b / 12,
+          .J = J,
+          .A_y = 5.0 / 6.0 * b * h,
+          .A_z = 5.0 / 6.0 * b * h};
+}
+
+BeamSection round_section(double d) { return tube_section(d, 0.5 * d); }
+
+BeamSection tube_section(double d, double t) {
+  const double inner = d - 2 * t;
+  const double A = 0.25 * std::numbers::pi * (d * d - inner * inner);
+  const double I = std::numbers::pi / 64 * (fourth(d) - fourth(inner));
+  // Cowper 1966 for a hollow circle of radii in the ratio m, at nu = 0.3.
+  const double m = inner / d;
+  const double q = (1 + m * m) * (1 + m * m);
+  const double kappa = m > 0 ? 7.8 * q / (8.8 * q + (20 + 12 * 0.3) * m * m) : kappa_round;
+  return {.A = A, .I_y = I, .I_z = I, .J = 2 * I, .A_y = kappa * A, .A_z = kappa * A};
+}
+
+BeamSection box_section(double b, double h, double t) {
+  const double bi = b - 2 * t;
+  const double hi = h - 2 * t;
+  const double enclosed = (b - t) * (h - t);
+  return {.A = b * h - bi * hi,
+          .I_y = (b * h * h * h - bi * hi * hi * hi) / 12,
+          .I_z = (h * b * b * b - hi * bi * bi * bi) / 12,
+          .J = 2 * t * enclosed * enclosed / (b + h - 2 * t),
+          .A_y = 2 * t * (b - t),
+          .A_z = 2 * t * (h - t)};
+}
+
+std::vector<Key> beam_section_keys() {
+  const Key width = side("width", "side along y");
+  const Key height = side("height", "side along z, the direction of `up`");
+  const Key diameter = side("diameter", "outer diameter");
+  const Key wall = side("wall", "thickness of the wall");
+  const auto shear = [](const char* name, const char* text) {
+    return Key{.name = name, .unit = dim::area, .text = text, .limits = positive()};
+  };
+  return {map_of("rectangle", "a full rectangle", {width, height}),
+          map_of("solid_round", "a full circle", {diameter}),
+          map_of("tube", "a round tube", {diameter, wall}),
+          map_of("box", "a rectangular tube", {width, height, wall}),
+          map_of("general", "any section, by its numbers",
+                 {{.name = "area",
+                   .unit = dim::area,
+                   .text = "its area",
+                   .required = true,
+                   .limits = positive()},
+                  moment_of_area("I_y", "integral of z^2: bending along z"),
+                  moment_of_area("I_z", "integral of y^2: bending along y"),
+                  moment_of_area("J", "torsion constant"),
+                  shear("shear_area_y", "area that carries shear along y; without it stiff"),
+                  shear("shear_area_z", "area that carries shear along z; without it stiff")})};
+}
+
+BeamSection read_beam_section(const Keys& section) {
+  const std::vector<std::string> names = section.names();
+  if (names.size() != 1) {
+    section.mistakes().add(
+        section.where(),
+        fmt::format("{}: {} sections are named; one of rectangle, solid_round, tube, box, general "
+                    "is wanted",
+                    section.path(), names.size()));
+    return {};
+  }
+  const Keys keys = section.map(names[0]);
+  // Keys that are required and missing: the reader has complained.
+  if (names[0] == "rectangle" && complete(keys, {"width", "height"})) {
+    return rectangle_section(keys.number("width"), keys.number("height"));
+  }
+  if (names[0] == "solid_round" && complete(keys, {"diameter"})) {
+    return round_section(keys.number("diameter"));
+  }
+  if (names[0] == "tube" && complete(keys, {"diameter", "wall"})) {
+    const double d = keys.number("diameter");
+    const double t = keys.number("wall");
+    return wall_fits(keys, t, d) ? tube_section(d, t) : BeamSection{};
+  }
+  if (names[0] == "box" && complete(keys, {"width", "height", "wall"})) {
+    const double b = keys.number("width");
+    const double h = keys.number("height");
+    const double t = keys.number("wall");
+    return wall_fits(keys, t, std::min(b, h)) ? box_section(b, h, t) : BeamSection{};
+  }
+  if (names[0] == "general" && complete(keys, {"area", "I_y", "I_z", "J"})) {
+    return general_section(keys);
+  }
+  return {};
+}
+
+}  // namespace gannet
