@@ -97,7 +97,7 @@ double omega2_of(const BeamLaw& law, double l0, double l, double N) {
   const BeamSection& s = law.section;
   const double m = 0.5 * law.rho * s.A * l0;
   const double I = std::max(s.I_y, s.I_z);
-  const double I_r = law.rotary_inertia * m * I / s.A;
+  const double I_r = rotary_ratio(law, l0) * m * I / s.A;
   const auto bending = [&](double I_s, double A_s) {
     const double k = 12 * law.E * I_s / (l0 * (1 + shear_ratio(law, I_s, A_s, l0)));
     return k * (2 / (m * l * l) + 0.5 / I_r) + 4 * std::max(N, 0.0) / (l * m);
@@ -166,6 +166,16 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
 
 }  // namespace
 
+double rotary_ratio(const BeamLaw& law, double l0) {
+  if (law.rotary_inertia > 0) return law.rotary_inertia;
+  const BeamSection& s = law.section;
+  const auto wanted = [&](double I, double A_s) {
+    const double room = 1 + shear_ratio(law, I, A_s, l0) - 12 * I / (s.A * l0 * l0);
+    return 3 * I / (std::max(s.I_y, s.I_z) * std::max(1.0, room));
+  };
+  return std::max({1.0, wanted(s.I_y, s.A_z), wanted(s.I_z, s.A_y)});
+}
+
 BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
                        const Vec3& theta_2, double& energy) {
   const BeamSection& s = law.section;
@@ -220,7 +230,7 @@ void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
     const auto i = static_cast<std::size_t>(block.ends[k]);
     const double m = 0.5 * block.law.rho * s.A * block.l0[k / 2];
     nodes.x[i].w += m;
-    nodes.torque[i].w += block.law.rotary_inertia * m * r2;
+    nodes.torque[i].w += rotary_ratio(block.law, block.l0[k / 2]) * m * r2;
   }
 }
 

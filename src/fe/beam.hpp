@@ -22,7 +22,7 @@ struct BeamLaw {
   double E = 0;               ///< Young's modulus [Pa], > 0
   double G = 0;               ///< shear modulus [Pa], > 0
   double rho = 0;             ///< density [kg/m^3], > 0
-  double rotary_inertia = 3;  ///< of a node over m max(I_y, I_z)/A
+  double rotary_inertia = 0;  ///< of a node over m max(I_y, I_z)/A; 0: see rotary_ratio()
   double dt_factor = 0.9;     ///< share of the stable step that is voted for
 };
 
@@ -82,8 +82,13 @@ inline constexpr Index beam_chunk = 256;
 BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<const Line> x,
                           const BeamLaw& law, const Vec3& up);
 
-/// Adds to both nodes of each element m = rho A l0/2, and the same rotary inertia about all axes,
-/// law.rotary_inertia m max(I_y, I_z)/A.
+/// Rotary inertia of a node, the same about all axes, over m max(I_y, I_z)/A of an element of
+/// length l0: law.rotary_inertia; where that is 0 the least one, from 1 on, with which rotations do
+/// not limit the step (see omega2_of() in beam.cpp):
+///   max(1, 3 q/max(1, 1 + phi - 12 I/(A l0^2))) over both planes, q = I/max(I_y, I_z)
+double rotary_ratio(const BeamLaw& law, double l0);
+
+/// Adds to both nodes of each element m = rho A l0/2, and rotary_ratio() m max(I_y, I_z)/A.
 void add_beam_masses(const BeamBlock& block, Nodes& nodes);
 
 /// One pass: node triads to n, forces and moments at x(n) added to nodes.f and nodes.torque;
@@ -105,9 +110,9 @@ ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old);
 BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
                        const Vec3& theta_2, double& energy);
 
-/// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound. With
-/// rotary inertia 3 m max(I)/A rotations do not limit it: l0/c where the beam is flexible in shear,
-/// as all solid sections are.
+/// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound, l0/c
+/// where rotary_ratio() chooses the rotary inertia and the beam shears more easily than it
+/// stretches, as beams of isotropic solids do.
 double stable_step(const BeamBlock& block);
 
 }  // namespace gannet

@@ -31,8 +31,8 @@ std::vector<Key> beam_keys() {
            .text = "direction near which z of the section lies; unless said the z axis, and x for "
                    "elements along that"},
           {.name = "rotary_inertia",
-           .text = "rotary inertia of nodes over m max(I)/A; with 3 rotations never limit the step",
-           .fallback = "3",
+           .text = "rotary inertia of nodes over m max(I)/A; unless said the least one, from 1 on, "
+                   "with which rotations do not limit the step",
            .limits = positive()},
           {.name = "dt_factor",
            .text = "share of the stable step of the elements that is used",
@@ -87,7 +87,7 @@ BeamLaw read_law(const Keys& root, const Keys& beam, Scene& scene) {
           .E = material.E,
           .G = material.G(),
           .rho = material.rho,
-          .rotary_inertia = beam.number("rotary_inertia"),
+          .rotary_inertia = beam.number_or("rotary_inertia", 0),
           .dt_factor = beam.number("dt_factor")};
 }
 
