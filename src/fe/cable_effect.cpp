@@ -150,15 +150,17 @@ void track(Scene& scene, TrussBlock& block) {
 
 /// The largest force and the number of broken elements, for histories.
 void add_measures(Scene& scene, const TrussBlock& block) {
-  scene.measures.push_back({block.name + ".tension", "N", {"value"}, [&block](double* value) {
-                              *value = 0;
-                              for (const double F : block.force) *value = std::max(*value, F);
-                            }});
+  scene.measures.push_back(
+      {"cable." + block.name + ".tension", "N", {"value"}, [&block](double* value) {
+         *value = 0;
+         for (const double F : block.force) *value = std::max(*value, F);
+       }});
   if (!(block.strength > 0)) return;
-  scene.measures.push_back({block.name + ".broken", "", {"value"}, [&block](double* value) {
-                              *value = 0;
-                              for (const double b : block.broken) *value += b;
-                            }});
+  scene.measures.push_back(
+      {"cable." + block.name + ".broken", "", {"value"}, [&block](double* value) {
+         *value = 0;
+         for (const double b : block.broken) *value += b;
+       }});
 }
 
 void state(const Keys& root, Scene& scene) {

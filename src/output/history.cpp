@@ -99,7 +99,9 @@ std::size_t length_before(const std::string& text, double t) {
 std::string history_name(const Measure& measure) {
   constexpr std::string_view probe = "probe.";
   if (measure.name.starts_with(probe)) return file_name_of(measure.name.substr(probe.size()));
-  if (!measure.name.starts_with("contact.") && !measure.name.starts_with("wall.")) return "";
+  const bool shown = measure.name.starts_with("contact.") || measure.name.starts_with("wall.") ||
+                     measure.name.starts_with("cable.");
+  if (!shown) return "";
   std::string name = measure.name;
   for (char& c : name) {
     if (c == '.') c = '_';

@@ -272,12 +272,12 @@ TEST_CASE("physics: a line that is pulled breaks, and its energy is accounted fo
   run_until(*s, 0.018, [&] {
     // The end is jerked into motion; little energy is there before the front has gone some way.
     if (time_of(*s) > 2e-3) worst = std::max(worst, energy_error(*s));
-    if (t_break == 0 && measured(s->scene, "line.broken") > 0) t_break = time_of(*s);
+    if (t_break == 0 && measured(s->scene, "cable.line.broken") > 0) t_break = time_of(*s);
   });
   WARN(
       fmt::format("broken at {:.2f} ms, {} in all, energy error at most {:.1e}, at the end {:.1e}; "
                   "eroded {:.2f} J of {:.2f} J",
-                  1e3 * t_break, measured(s->scene, "line.broken"), worst, energy_error(*s),
+                  1e3 * t_break, measured(s->scene, "cable.line.broken"), worst, energy_error(*s),
                   ledger_sum(*s, "eroded"), s->models.ledger.external()));
   CHECK(t_break == Approx(10e-3).epsilon(0.06));  // L/c, and the front rises over a few elements
   CHECK(ledger_sum(*s, "eroded") > 0);
