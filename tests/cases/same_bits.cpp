@@ -79,6 +79,10 @@ Sample solids_sample(const std::string& formulation) {
   return {[set] { return std::make_unique<WatchedRun>(taylor_bar, set); }, 150, false};
 }
 
+Sample lines_sample() {
+  return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
+}
+
 /// Runs a sample from its start; returns it at its end.
 std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
   set_threads(n_threads);
@@ -294,6 +298,18 @@ TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "
   const std::string formulation = GENERATE("one_point", "eight_points");
   check_threads(solids_sample(formulation));
   check_restart(solids_sample(formulation));
+}
+
+TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(lines_sample());
+  check_restart(lines_sample());
+  const auto end = run(lines_sample(), 1);
+  double n_broken = 0;
+  for (const Measure& m : end->s->scene.measures) {
+    if (m.name == "cable.rope.broken") m.sample(&n_broken);
+  }
+  CHECK(n_broken > 0);
 }
 
 TEST_CASE("same bits: restarts of waves over a bed, sponge and relaxation", "[bits]") {

@@ -141,4 +141,21 @@ effects:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// A damped rope that swings along itself and breaks in places, and a beam that is bent and
+/// twisted: three chunks of each.
+inline const std::string rope_and_beam = R"case(gannet: 1
+materials: {steel: {density: 7800, young: 210 GPa, poisson: 0.3}}
+parts:
+  rope:
+    cable: {EA: 1 MN, mass_per_length: 1, damping_ratio: 0.05, damping_time: 1e-7 s, strength: 7 kN, prestrain: 0.001}
+    shape: {line: {from: [0, 0, 0], to: [12 m, 0, 0], elements: 1200}}
+    initial_velocity: ["8*sin(50*x)", "2*cos(3*x)", 0]
+  beam:
+    beam: {material: steel, section: {box: {width: 50 mm, height: 80 mm, wall: 5 mm}}}
+    shape: {polyline: {points: [[0, 1 m, 0], [3 m, 1 m, 0], [6 m, 1 m, 3 m]], elements: [300, 290]}}
+    initial_velocity: ["3*sin(x)", "5*sin(2*x)", "4*cos(7*x)"]
+boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx, ry, rz]}}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 }  // namespace gannet::test
