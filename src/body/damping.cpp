@@ -19,7 +19,7 @@ DampingWork work_of(const DampingForce& damping, const Scene& scene, const Step&
   along_u.col(0) = u * (0.5 * step.dt_old);
   along_u.col(1) = u * (0.5 * step.dt);
   const Both sum =
-      parallel_sum(scene.particles.size(), node_chunk, none, [&](Index begin, Index end) {
+      parallel_sum(scene.awake().size(), node_chunk, none, [&](Index begin, Index end) {
         Both part = none;
         for (Index k = begin; k < end; ++k) {
           const Vec3 f = xyz(damping.f[k]);

@@ -41,7 +41,7 @@ template <class Rate>
 void damp(DampingForce& damping, Scene& scene, const Step& step, const Vec3& u, Rate&& rate) {
   const double dt = 0.5 * (step.dt_old + step.dt);
   Nodes& nodes = scene.nodes;
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       damping.f[k] = {};
       if (!damping.of_part[scene.particle_part[k]]) continue;

@@ -32,9 +32,10 @@ void add_weight(Nodes& nodes, const Range& r, const Vec3& g) {
 Work work_of_weight(const Scene& scene, const Share& share, const Step& step) {
   const Nodes& nodes = scene.nodes;
   const Work none = Work::Zero();
-  return parallel_sum(share.nodes.size(), node_chunk, none, [&](Index a, Index b) {
+  const Range computed = scene.computed(share.nodes);
+  return parallel_sum(computed.size(), node_chunk, none, [&](Index a, Index b) {
     Work work = none;
-    for (Index i = share.nodes.begin + a; i < share.nodes.begin + b; ++i) {
+    for (Index i = computed.begin + a; i < computed.begin + b; ++i) {
       if (share.mixed &&
           scene.particle_part[static_cast<std::size_t>(i - scene.particles.begin)] != share.part) {
         continue;
@@ -95,7 +96,9 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                     .writes = {"f"},
                     .run = [&scene, ranges, g, changes = !g.constant()](const Step& step) {
                       if (changes) scene.gravity = value_at(g, step.t);
-                      for (const Range& r : ranges) add_weight(scene.nodes, r, scene.gravity);
+                      for (const Range& r : ranges) {
+                        add_weight(scene.nodes, scene.computed(r), scene.gravity);
+                      }
                     }});
     const std::vector<Share> shares = shares_of(scene, model, models.ledger);
     model.plan.add({.name = "work of gravity",

@@ -70,7 +70,7 @@ void state(const Keys& root, Scene& scene) {
 
 /// Kinetic energy at level n of what is damped [J].
 double kinetic_energy(const DampingForce& damping, const Scene& scene, const Step& step) {
-  return parallel_sum(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  return parallel_sum(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     double e = 0;
     for (Index k = begin; k < end; ++k) {
       if (!damping.of_part[scene.particle_part[k]]) continue;

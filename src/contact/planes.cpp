@@ -70,6 +70,12 @@ void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
   }
 }
 
+/// Before a loop over particles: chunks that it leaves out, of particles at rest, touch nothing.
+void forget_chunks(ParticlesOnPlanes& state) {
+  std::fill(state.chunks.begin(), state.chunks.end(), PlaneSums{});
+  std::fill(state.n_touching.begin(), state.n_touching.end(), 0);
+}
+
 /// A particle that starts behind a wall would be shot out of it: a mistake in the case.
 void complain_of_particles_behind(const Keys& root, const Scene& scene,
                                   const ParticlesOnPlanes& state) {
@@ -256,7 +262,8 @@ double plane_step(double rate2) { return contact_step(rate2, 0); }
 void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
   const std::size_t n_planes = scene.planes.size();
   Nodes& nodes = scene.nodes;
-  parallel_for(scene.particles.size(), particle_chunk, [&](Index begin, Index end) {
+  forget_chunks(state);
+  parallel_for(scene.awake().size(), particle_chunk, [&](Index begin, Index end) {
     const auto chunk = static_cast<std::size_t>(begin / particle_chunk);
     PlaneSums* sums = &state.chunks[chunk * n_planes];
     std::fill(sums, sums + n_planes, PlaneSums{});

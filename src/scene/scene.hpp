@@ -2,6 +2,7 @@
 // has a density; position, velocity, force and mass live once, in one node table.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -83,6 +84,18 @@ struct Measure {
   std::function<void(double*)> sample;  ///< writes one double a component
 };
 
+/// Particles that are not computed for a while, because nothing happens where they are
+/// (sph/rest.hpp): they keep their place and density, v = f = 0. They are the last of the
+/// particles, and the very last are those that no other particle sees. Without any, all are
+/// computed.
+struct Resting {
+  Index n = 0;                    ///< particles at rest
+  Index n_unseen = 0;             ///< of them, those that no particle in motion has near
+  double particle_steps = 0;      ///< that were not computed since the start
+  double all_particle_steps = 0;  ///< with those that were; 0: nothing may rest
+  Vec3 momentum = Vec3::Zero();   ///< that was taken from particles that came to rest [kg m/s]
+};
+
 /// State that effects own and others may look up by its type: scene.store.get<SphState>().
 class Store {
  public:
@@ -108,6 +121,7 @@ struct Scene {
   Vec3 gravity = Vec3::Zero();  ///< at the level of the last force stage, or the start [m/s^2]
   Nodes nodes;
   Range particles;             ///< the one range of nodes that are particles, sorted in space
+  Resting resting;             ///< those of them that rest
   Array<Index> particle_part;  ///< part number of each particle (tracked field "part")
   std::vector<Part> parts;
   std::vector<Plane> planes;
@@ -121,6 +135,14 @@ struct Scene {
   std::vector<std::string> warnings;
   Store store;
 
+  /// The particles that are computed: the first ones.
+  [[nodiscard]] Range awake() const { return {particles.begin, particles.end - resting.n}; }
+  /// These and the particles at rest that they may have near.
+  [[nodiscard]] Range seen() const { return {particles.begin, particles.end - resting.n_unseen}; }
+  /// The nodes of a range that are computed. Particles are the last of all owned nodes.
+  [[nodiscard]] Range computed(const Range& r) const {
+    return resting.n == 0 ? r : Range{r.begin, std::max(r.begin, std::min(r.end, awake().end))};
+  }
   [[nodiscard]] int part_number(const std::string& name) const;  ///< -1 where there is none
   [[nodiscard]] const Field* field(const std::string& name) const;
 };

@@ -25,6 +25,7 @@ struct SourceTable {
   Columns columns;
   Array<float> x, y, z;
   Vec3 origin = Vec3::Zero();
+  Array<Line> seen;  ///< their positions, where some are left out
 };
 
 /// The lists of one chunk, before they are joined.
@@ -56,7 +57,17 @@ Vec3 mean_of(std::span<const Line> x) {
   return sum / static_cast<double>(x.size());
 }
 
-void fill_table(std::span<const Line> x, double radius, SourceTable& table) {
+/// The positions without those of the unseen, one behind the other in `kept` where there are any.
+std::span<const Line> without(std::span<const Line> x, Range unseen, Array<Line>& kept) {
+  if (unseen.empty()) return x;
+  kept.resize(x.size() - static_cast<std::size_t>(unseen.size()));
+  std::copy_n(x.begin(), unseen.begin, kept.begin());
+  std::copy(x.begin() + unseen.end, x.end(), kept.begin() + unseen.begin);
+  return kept;
+}
+
+void fill_table(std::span<const Line> all, Range unseen, double radius, SourceTable& table) {
+  const std::span<const Line> x = without(all, unseen, table.seen);
   // Two particle spacings at the usual radius of 2 h + skin = 2.86 spacings.
   sort_into_columns(x, 0.7 * radius, false, table.columns);
   table.origin = mean_of(x);
@@ -69,6 +80,8 @@ void fill_table(std::span<const Line> x, double radius, SourceTable& table) {
       table.x[q] = static_cast<float>(line.x - table.origin.x());
       table.y[q] = static_cast<float>(line.y - table.origin.y());
       table.z[q] = static_cast<float>(line.z - table.origin.z());
+      // From here on sources go by their numbers among all.
+      if (table.columns.order[q] >= unseen.begin) table.columns.order[q] += unseen.size();
     }
   });
 }
@@ -128,18 +141,20 @@ void make_room(ClusterList& list, std::int64_t n, Index done) {
 }  // namespace
 
 void build_cluster_list(std::span<const Line> x, Index n_targets, double radius, ClusterList& list,
-                        Isa with) {
+                        Isa with, Range unseen) {
   assert(radius > 0 && n_targets <= static_cast<Index>(x.size()));
+  assert(unseen.empty() || n_targets <= unseen.begin);
   list.n_targets = n_targets;
   list.n_sources = static_cast<Index>(x.size());
   list.n_clusters = (n_targets + ClusterList::lanes - 1) / ClusterList::lanes;
+  list.n_active = list.n_clusters;
   list.radius = radius;
   list.offset.assign(static_cast<std::size_t>(list.n_clusters) + 1, 0);
   if (list.n_clusters == 0) return;
 
   if (!list.workspace) list.workspace = std::make_shared<ListWorkspace>();
   ListWorkspace& work = *list.workspace;
-  fill_table(x, radius, work.table);
+  fill_table(x, unseen, radius, work.table);
   const ListJob job = job_of(x, work.table, list);
   const Index n_chunks = (list.n_clusters + chunk_clusters - 1) / chunk_clusters;
   const auto n_scratch = static_cast<std::size_t>(std::min(n_chunks, wave_chunks));

@@ -27,6 +27,7 @@ struct ClusterList {
   Index n_targets = 0;
   Index n_sources = 0;
   Index n_clusters = 0;        ///< ceil(n_targets / 8)
+  Index n_active = 0;          ///< the first ones: those that passes do unless told otherwise
   double radius = 0;           ///< [m]
   Array<std::int64_t> offset;  ///< n_clusters + 1: where the list of a cluster begins in source
   Array<Index> source;         ///< the lists; entries behind offset.back() mean nothing
@@ -38,11 +39,13 @@ struct ClusterList {
 /// at most `radius` is in it. The list is a function of the arguments alone: not of the number of
 /// threads, nor of the instruction set. A restart that hands in the positions of the last build
 /// gets the same list.
+/// All clusters are active.
 /// x: positions [m] of n_sources particles, owned first, finite; n_targets <= x.size();
 /// radius: 2 h + skin [m], positive. Targets in no spatial order give a right but long list.
 /// with: the kernel's instruction set, for tests.
+/// unseen: sources, none of them a target, that are left out whatever their place.
 void build_cluster_list(std::span<const Line> x, Index n_targets, double radius, ClusterList& list,
-                        Isa with = isa());
+                        Isa with = isa(), Range unseen = {});
 
 /// The largest displacement since a build, relative to the mean displacement of all particles [m]:
 /// max_i |d_i - d_mean|, d_i = x_i - x_build_i. A list of radius 2 h + skin holds all pairs nearer

@@ -197,7 +197,7 @@ void spatial_order(std::span<const Line> x, double dx, Array<Index>& order) {
 }
 
 void permute_particles(Scene& scene, std::span<const Index> order) {
-  assert(static_cast<Index>(order.size()) == scene.particles.size());
+  assert(static_cast<Index>(order.size()) <= scene.particles.size());
   Array<std::byte> buffer;
   for (const Field& field : scene.fields) {
     Index first = 0;
@@ -209,7 +209,7 @@ void permute_particles(Scene& scene, std::span<const Index> order) {
 void sort_particles(Scene& scene, double dx) {
   Array<Index> order;
   const auto first = static_cast<std::size_t>(scene.particles.begin);
-  const auto n = static_cast<std::size_t>(scene.particles.size());
+  const auto n = static_cast<std::size_t>(scene.awake().size());
   spatial_order(std::span<const Line>(scene.nodes.x).subspan(first, n), dx, order);
   permute_particles(scene, order);
 }

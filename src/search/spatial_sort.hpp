@@ -49,10 +49,10 @@ void spatial_order(std::span<const Line> x, double dx, Array<Index>& order);
 /// of all scene.index_lists. Index lists hold particle indices, which are entries of particle
 /// fields: node - scene.particles.begin; entries outside of [0, n) stay as they are.
 /// Ghosts do not move: their owner makes them anew after a sort.
-/// order: a permutation of [0, n), n = scene.particles.size().
+/// order: a permutation of [0, n), n at most scene.particles.size(); those behind stay.
 void permute_particles(Scene& scene, std::span<const Index> order);
 
-/// spatial_order() of the scene's particles, then permute_particles().
+/// spatial_order() of the scene's particles that are computed, then permute_particles().
 /// dx: particle spacing [m], positive.
 void sort_particles(Scene& scene, double dx);
 

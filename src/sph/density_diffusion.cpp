@@ -57,7 +57,7 @@ void make_state(const Keys& root, Scene& scene) {
 void find_potential(SphState& sph, const Scene& scene) {
   const Line* x = scene.nodes.x.data() + scene.particles.begin;
   const double c2 = sph.c0 * sph.c0;
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.seen().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const Murnaghan& eos = eos_of(sph, scene, k);
       sph.s[k] = eos.rho0 * (enthalpy(eos, sph.rho[k]) - scene.gravity.dot(xyz(x[k]))) / c2;

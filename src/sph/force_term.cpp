@@ -17,7 +17,7 @@ std::string in_words(std::string name) {
 
 /// Energy that a force took from the motion of a part along the path of level n [J].
 Work taken(const Array<Line>& force, const Scene& scene, int part, const Step& step) {
-  return -sum_over_part(scene, part, [&](Index k) -> Work {
+  return -sum_over_awake(scene, part, [&](Index k) -> Work {
     return work_along(work_path(scene.nodes, scene.particles.begin + k, step), xyz(force[k]));
   });
 }
@@ -56,7 +56,7 @@ void add_work_of_term(const Array<Line>& force, const std::string& entry, const 
 double energy_of_rate(const SphState& sph, const Array<double>& rate, const Scene& scene, int part,
                       double dt) {
   const Murnaghan& eos = sph.eos[part];
-  return sph.m * dt * sum_over_part(scene, part, [&](Index k) {
+  return sph.m * dt * sum_over_awake(scene, part, [&](Index k) {
            const double rho = sph.rho[k] - 0.5 * dt * sph.drho_dt[k];
            return pressure(eos, rho) / (rho * rho) * rate[k];
          });

@@ -23,15 +23,16 @@ struct GhostPairs {
   Array<Line> f, f_viscous, f_laminar, f_tensile;
 };
 
-void find_pairs(const ClusterList& list, GhostPairs& pairs) {
+/// n_owned: owned particles; ghosts are the sources from there on.
+void find_pairs(const ClusterList& list, Index n_owned, GhostPairs& pairs) {
   pairs.cluster.clear();
   pairs.source.clear();
   pairs.offset.assign(1, 0);
   const Index filler = list.n_sources;
-  for (Index c = 0; c < list.n_clusters; ++c) {
+  for (Index c = 0; c < list.n_active; ++c) {
     for (std::int64_t e = list.offset[c]; e < list.offset[c + 1]; ++e) {
       const Index source = list.source[e];
-      if (source >= list.n_targets && source != filler) pairs.source.push_back(source);
+      if (source >= n_owned && source != filler) pairs.source.push_back(source);
     }
     const auto n = static_cast<std::int64_t>(pairs.source.size());
     if (n == pairs.offset.back()) continue;
@@ -41,12 +42,13 @@ void find_pairs(const ClusterList& list, GhostPairs& pairs) {
 }
 
 /// Lists with the ghosts of the chosen kinds only.
-void choose(const SphState& sph, std::span<const char> chosen, GhostPairs& pairs) {
+void choose(const SphState& sph, Index n_owned, std::span<const char> chosen, GhostPairs& pairs) {
   ClusterList& list = pairs.list;
   const ClusterList& all = sph.list;
   list.n_targets = all.n_targets;
   list.n_sources = all.n_sources;
   list.n_clusters = all.n_clusters;
+  list.n_active = all.n_active;
   list.radius = all.radius;
   list.offset.assign(static_cast<std::size_t>(all.n_clusters) + 1, 0);
   list.source.clear();
@@ -57,7 +59,7 @@ void choose(const SphState& sph, std::span<const char> chosen, GhostPairs& pairs
     }
     for (std::int64_t e = pairs.offset[k]; e < pairs.offset[k + 1]; ++e) {
       const Index source = pairs.source[e];
-      if (chosen[sph.halo.kind[source - all.n_targets]] != 0) list.source.push_back(source);
+      if (chosen[sph.halo.kind[source - n_owned]] != 0) list.source.push_back(source);
     }
     if (list.source.size() % 2 != 0) list.source.push_back(all.n_sources);
   }
@@ -86,11 +88,11 @@ Vec3 sum_of(const Array<Line>& lines, const GhostPairs& pairs) {
 GhostForce force_of_ghosts(SphState& sph, Scene& scene, std::span<const char> chosen) {
   GhostPairs& pairs = scene.store.get<GhostPairs>();
   if (pairs.build != sph.n_builds) {
-    find_pairs(sph.list, pairs);
+    find_pairs(sph.list, scene.particles.size(), pairs);
     pairs.build = sph.n_builds;
   }
   if (pairs.cluster.empty()) return {};
-  choose(sph, chosen, pairs);
+  choose(sph, scene.particles.size(), chosen, pairs);
   const auto n = static_cast<std::size_t>(sph.list.n_targets);
   const auto wanted = [n](const Array<Line>& term, Array<Line>& result) -> Line* {
     result.resize(term.empty() ? 0 : n);

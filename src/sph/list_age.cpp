@@ -29,9 +29,18 @@ struct Grid {
   }
 };
 
-Grid grid_of(std::span<const Line> x, double edge) {
+/// Calls f(k) for all sources but the unseen.
+template <class F>
+void for_seen(std::span<const Line> x, Range unseen, F&& f) {
+  const auto n = static_cast<Index>(x.size());
+  const Index first = unseen.empty() ? n : unseen.begin;
+  for (Index k = 0; k < first; ++k) f(k);
+  for (Index k = unseen.end; !unseen.empty() && k < n; ++k) f(k);
+}
+
+Grid grid_of(std::span<const Line> x, Range unseen, double edge) {
   MotionBox box;
-  for (const Line& p : x) box.add(xyz(p));
+  for_seen(x, unseen, [&](Index k) { box.add(xyz(x[k])); });
   Grid grid{box.low, edge, {}};
   const double most = std::max(4096.0, 2.0 * static_cast<double>(x.size()));
   while (true) {
@@ -47,14 +56,13 @@ Grid grid_of(std::span<const Line> x, double edge) {
 }
 
 /// Counting sort of the sources by cell.
-void sort_by_cell(std::span<const Line> x, const Grid& grid, ListAge& age) {
-  const auto n_sources = static_cast<Index>(x.size());
+void sort_by_cell(std::span<const Line> x, Range unseen, const Grid& grid, ListAge& age) {
   age.n = grid.n;
   age.start.assign(static_cast<std::size_t>(age.n_cells() + 2), 0);
-  age.member.resize(x.size());
-  for (const Line& p : x) ++age.start[grid.cell_of(p) + 2];
+  age.member.resize(x.size() - static_cast<std::size_t>(unseen.size()));
+  for_seen(x, unseen, [&](Index k) { ++age.start[grid.cell_of(x[k]) + 2]; });
   for (std::size_t c = 2; c < age.start.size(); ++c) age.start[c] += age.start[c - 1];
-  for (Index k = 0; k < n_sources; ++k) age.member[age.start[grid.cell_of(x[k]) + 1]++] = k;
+  for_seen(x, unseen, [&](Index k) { age.member[age.start[grid.cell_of(x[k]) + 1]++] = k; });
   age.start.pop_back();
   age.motion.resize(static_cast<std::size_t>(age.n_cells()));
 }
@@ -121,9 +129,10 @@ bool rows_are_outdated(const ListAge& age, std::span<const MotionBox> rows, Inde
 
 }  // namespace
 
-void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age) {
-  const Grid grid = grid_of(x, (support + far_allowance * dx) / range);
-  sort_by_cell(x, grid, age);
+void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age,
+                  Range unseen) {
+  const Grid grid = grid_of(x, unseen, (support + far_allowance * dx) / range);
+  sort_by_cell(x, unseen, grid, age);
   age.allowed_elsewhere = range * grid.edge - support;
   age.neighbours.clear();
   const auto gap = [&](Index steps) { return grid.edge * std::max(std::abs(steps) - 1, 0); };

@@ -59,8 +59,10 @@ struct ListAge {
 
 /// Puts the sources of a new list into cells. With particles far out the cells become larger, so
 /// that there are at most 2 a particle (and 4096): lists are then made anew more often.
-/// x: positions at the build [m], finite; support: 2 h [m]; skin, dx: [m], > 0.
-void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age);
+/// x: positions at the build [m], finite; support: 2 h [m]; skin, dx: [m], > 0. unseen: sources
+/// that no list holds, and that are left out here too.
+void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age,
+                  Range unseen = {});
 
 /// True where the boxes age.motion allow that a pair is missing. Parallel.
 bool outdated(const ListAge& age);

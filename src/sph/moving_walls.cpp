@@ -86,10 +86,10 @@ double force_of_images(const SphState& sph, const Scene& scene, const MovingWall
     const double F = sph.kernel.F(std::sqrt(r2));
     return -sph.m * sph.m * (p_rho2(k) + p_rho2(image)) * F * r_ij[wall.axis];
   };
-  return parallel_sum(list.n_clusters, 64, [&](Index begin, Index end) {
+  return parallel_sum(list.n_active, 64, [&](Index begin, Index end) {
     double sum = 0;
     for (Index c = begin; c < end; ++c) {
-      const Index last = std::min(n, (c + 1) * ClusterList::lanes);
+      const Index last = std::min(list.n_targets, (c + 1) * ClusterList::lanes);
       for (auto e = list.offset[c]; e < list.offset[c + 1]; ++e) {
         const Index source = list.source[static_cast<std::size_t>(e)];
         if (source < n || source >= list.n_sources) continue;

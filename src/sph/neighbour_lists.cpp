@@ -18,7 +18,9 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   const Index n = scene.particles.size();
   Halo& halo = sph.halo;
   sph.x_build.resize(static_cast<std::size_t>(n));
-  if (halo.active()) choose_images(sph.x_build.data(), n, reach(sph), halo);
+  // Who is not seen needs no images: nobody that they might be near to is computed.
+  const Index n_seen = scene.seen().size();
+  if (halo.active()) choose_images(sph.x_build.data(), n_seen, reach(sph), halo);
   resize_ghosts(halo, scene);
   sph.x_build.resize(static_cast<std::size_t>(n + halo.n_ghosts()));
   parallel_for(halo.n_ghosts(), node_chunk, [&](Index begin, Index end) {
@@ -30,15 +32,16 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   });
   copy_out(halo, scene);
   move_images(halo, scene);
-  build_cluster_list(sph.x_build, n, reach(sph), sph.list);
-  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age);
+  build_cluster_list(sph.x_build, n_seen, reach(sph), sph.list, isa(), {n_seen, n});
+  if (scene.resting.n > 0) sph.list.n_active = scene.awake().size() / ClusterList::lanes;
+  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age, {n_seen, n});
   ++sph.n_builds;
 }
 
 /// Sorting needs numbers. Throws RunError that names the first particle without
 /// a position.
 void require_finite(const Scene& scene) {
-  const Index n = scene.particles.size();
+  const Index n = scene.awake().size();
   const Line* x = scene.nodes.x.data() + scene.particles.begin;
   const Index first = parallel_reduce(
       n, node_chunk, n,

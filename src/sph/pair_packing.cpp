@@ -19,6 +19,14 @@ std::size_t packed_size(const ParticleView& view) {
   return static_cast<std::size_t>(view.n_sources) + ClusterList::lanes;
 }
 
+/// Calls f(begin, end) for pieces of [begin, end) that are not of the unseen.
+template <class F>
+void for_seen(const ParticleView& view, Index begin, Index end, F&& f) {
+  if (view.unseen.empty()) return f(begin, end);
+  if (begin < view.unseen.begin) f(begin, std::min(end, view.unseen.begin));
+  if (end > view.unseen.end) f(std::max(begin, view.unseen.end), end);
+}
+
 /// The eighth number of a line.
 double last_of(const ParticleView& view, Index i) {
   if (view.p != nullptr) return view.p[i] / (view.rho[i] * view.rho[i]);
@@ -29,11 +37,13 @@ void pack_double(const ParticleView& view, Array<PackedParticle>& lines) {
   lines.resize(packed_size(view));
   parallel_for(static_cast<Index>(lines.size()), node_chunk, [&](Index begin, Index end) {
     const Index last = std::min(end, view.n_sources);
-    for (Index i = begin; i < last; ++i) {
-      const Line& x = view.x[i];
-      const Line& v = view.v[i];
-      lines[i] = {x.x, x.y, x.z, v.x, v.y, v.z, view.rho[i], last_of(view, i)};
-    }
+    for_seen(view, begin, last, [&](Index from, Index to) {
+      for (Index i = from; i < to; ++i) {
+        const Line& x = view.x[i];
+        const Line& v = view.v[i];
+        lines[i] = {x.x, x.y, x.z, v.x, v.y, v.z, view.rho[i], last_of(view, i)};
+      }
+    });
     for (Index i = std::max(begin, view.n_sources); i < end; ++i) lines[i] = far_away;
   });
 }
@@ -50,11 +60,13 @@ Extent extent_of(const ParticleView& view) {
       view.n_sources, node_chunk, Extent{},
       [&](Index begin, Index end) {
         Extent e;
-        for (Index i = begin; i < end; ++i) {
-          e.low = e.low.cwiseMin(xyz(view.x[i]));
-          e.high = e.high.cwiseMax(xyz(view.x[i]));
-          e.speed = std::max(e.speed, xyz(view.v[i]).cwiseAbs().maxCoeff());
-        }
+        for_seen(view, begin, end, [&](Index from, Index to) {
+          for (Index i = from; i < to; ++i) {
+            e.low = e.low.cwiseMin(xyz(view.x[i]));
+            e.high = e.high.cwiseMax(xyz(view.x[i]));
+            e.speed = std::max(e.speed, xyz(view.v[i]).cwiseAbs().maxCoeff());
+          }
+        });
         return e;
       },
       [](const Extent& a, const Extent& b) {
@@ -81,16 +93,18 @@ void pack_single(const ParticleView& view, double reach, Packed& packed) {
   const double s_0 = of_s ? view.s[0] : 0.0;
   parallel_for(static_cast<Index>(packed.singles.size()), node_chunk, [&](Index begin, Index end) {
     const Index last = std::min(end, view.n_sources);
-    for (Index i = begin; i < last; ++i) {
-      PackedSingle& line = packed.singles[i];
-      const Vec3 x = (xyz(view.x[i]) - middle) / packed.x_unit;
-      const Vec3 v = xyz(view.v[i]) / packed.v_unit;
-      for (int d = 0; d < 3; ++d) line.x[d] = whole(x[d]);
-      for (int d = 0; d < 3; ++d) line.v[d] = whole(v[d]);
-      line.rho = static_cast<float>(view.rho[i]);
-      // Only differences of s count: those from the first one keep more digits.
-      line.last = static_cast<float>(last_of(view, i) - s_0);
-    }
+    for_seen(view, begin, last, [&](Index from, Index to) {
+      for (Index i = from; i < to; ++i) {
+        PackedSingle& line = packed.singles[i];
+        const Vec3 x = (xyz(view.x[i]) - middle) / packed.x_unit;
+        const Vec3 v = xyz(view.v[i]) / packed.v_unit;
+        for (int d = 0; d < 3; ++d) line.x[d] = whole(x[d]);
+        for (int d = 0; d < 3; ++d) line.v[d] = whole(v[d]);
+        line.rho = static_cast<float>(view.rho[i]);
+        // Only differences of s count: those from the first one keep more digits.
+        line.last = static_cast<float>(last_of(view, i) - s_0);
+      }
+    });
     constexpr std::int32_t far = std::numeric_limits<std::int32_t>::max();
     for (Index i = std::max(begin, view.n_sources); i < end; ++i) {
       packed.singles[i] = {{far, far, far}, {0, 0, 0}, 1, 0};

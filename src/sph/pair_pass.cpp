@@ -51,7 +51,7 @@ PairJob pair_job(const ClusterList& list, const Packed& packed, const PairParame
   job.offset = list.offset.data();
   job.source = list.source.data();
   job.n_targets = list.n_targets;
-  job.last = list.n_clusters;
+  job.last = list.n_active;
   job.kernel = static_cast<int>(parameters.kernel);
   job.dimension = parameters.dimension;
   job.h = parameters.h;

@@ -48,6 +48,7 @@ struct ParticleView {
   const double* p = nullptr;    ///< pressure [Pa], any sign; for the force pass, else null
   Index n_sources = 0;
   const double* s = nullptr;  ///< what density diffusion evens out [kg/m^3]; may be null
+  Range unseen{};             ///< owned particles that no list holds: their lines mean nothing
 };
 
 /// What does not change from pair to pair.
@@ -91,7 +92,7 @@ struct ForceOut {
 /// How a pass is made.
 struct PassOptions {
   const double* rho = nullptr;      ///< of the targets, as packed [kg/m^3]; for corrections only
-  std::span<const Index> clusters;  ///< those to do; empty: all
+  std::span<const Index> clusters;  ///< those to do; empty: all active ones
   Isa set = isa();                  ///< the kernels' instruction set, for tests
 };
 

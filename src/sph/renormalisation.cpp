@@ -50,7 +50,7 @@ void make_state(const Keys& root, Scene& scene) {
 }
 
 void renormalise(SphState& sph, const Scene& scene, const Renormalisation& state) {
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       sph.rho[k] = state.sum_mW[k] / state.sum_VW[k];
       sph.p[k] = pressure(eos_of(sph, scene, k), sph.rho[k]);

@@ -62,7 +62,7 @@ void make_state(const Keys& root, Scene& scene) {
 double largest_speed(const Scene& scene) {
   const Line* v = scene.nodes.v.data() + scene.particles.begin;
   return parallel_reduce(
-      scene.particles.size(), node_chunk, 0.0,
+      scene.awake().size(), node_chunk, 0.0,
       [&](Index begin, Index end) {
         double most = 0;
         for (Index k = begin; k < end; ++k) most = std::max(most, xyz(v[k]).squaredNorm());
@@ -84,7 +84,7 @@ Vec3 drift_of(const SphState& sph, Index k, double U) {
 }
 
 void find_shift(SphState& sph, const Scene& scene, double U) {
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const bool held = scene.nodes.v[scene.particles.begin + k].w == 0;
       set_xyz(sph.shift[k], held ? Vec3(Vec3::Zero()) : drift_of(sph, k, U));
@@ -94,7 +94,7 @@ void find_shift(SphState& sph, const Scene& scene, double U) {
 
 void move(const SphState& sph, Scene& scene, double dt) {
   Line* x = scene.nodes.x.data() + scene.particles.begin;
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) add_xyz(x[k], dt * xyz(sph.shift[k]));
   });
 }
@@ -102,7 +102,7 @@ void move(const SphState& sph, Scene& scene, double dt) {
 /// Work of the weight along the drift that no work path holds: sum m g . u dt [J].
 double work_of_weight(const SphState& sph, const Scene& scene, int part, double dt) {
   return sph.m * dt *
-         sum_over_part(scene, part, [&](Index k) { return scene.gravity.dot(xyz(sph.shift[k])); });
+         sum_over_awake(scene, part, [&](Index k) { return scene.gravity.dot(xyz(sph.shift[k])); });
 }
 
 void add_operations(const Keys& root, Scene& scene, Models& models) {

@@ -209,7 +209,7 @@ void add_look(SphState& sph, Scene& scene, Models& models, const std::string& re
             .reads = {"rho"},
             .run = [&, entries](const Step&) {
               for (std::size_t k = 0; k < entries.size(); ++k) {
-                entries[k]->value = internal_energy_of_part(sph, scene, sph.parts[k]);
+                entries[k]->value = internal_energy_at_work(sph, scene, sph.parts[k]);
               }
             }});
   if (!watch_sound_speed) return;

@@ -21,12 +21,12 @@ struct Extreme {
   Index particle = -1;
 };
 
-/// The largest f(k) of all particles; the first one where several have it, or one that is not a
-/// number.
+/// The largest f(k) of all particles that are computed; the first one where several have it, or one
+/// that is not a number.
 template <class F>
 Extreme largest(const Scene& scene, const F& f) {
   return parallel_reduce(
-      scene.particles.size(), node_chunk, Extreme{},
+      scene.awake().size(), node_chunk, Extreme{},
       [&](Index begin, Index end) {
         Extreme most;
         for (Index k = begin; k < end; ++k) {
@@ -40,7 +40,7 @@ Extreme largest(const Scene& scene, const F& f) {
 
 /// The speed that 99.9 % of the particles do not pass.
 double high_speed(SphState& sph, const Scene& scene, double dt) {
-  const Index n = scene.particles.size();
+  const Index n = scene.awake().size();
   sph.scratch.resize(static_cast<std::size_t>(n));
   parallel_for(n, node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
@@ -67,6 +67,7 @@ ParticleView view_of(const SphState& sph, const Scene& scene) {
   view.v = scene.nodes.v.data() + first;
   view.rho = sph.rho.data();
   view.n_sources = scene.particles.size() + scene.nodes.n_ghosts;
+  view.unseen = {scene.seen().size(), scene.particles.size()};
   return view;
 }
 
@@ -88,7 +89,7 @@ PairParameters parameters_of(const SphState& sph) {
 }
 
 void advance_density(SphState& sph, const Scene& scene, double dt) {
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       sph.rho[k] += sph.drho_dt[k] * dt;
       sph.p[k] = pressure(eos_of(sph, scene, k), sph.rho[k]);
@@ -100,6 +101,14 @@ double internal_energy_of_part(const SphState& sph, const Scene& scene, int part
   const Murnaghan& eos = sph.eos[part];
   return sum_over_part(scene, part,
                        [&](Index k) { return sph.m * internal_energy(eos, sph.rho[k]); });
+}
+
+double internal_energy_at_work(const SphState& sph, const Scene& scene, int part) {
+  const Murnaghan& eos = sph.eos[part];
+  const double at_rest = sph.internal_at_rest.empty() ? 0.0 : sph.internal_at_rest[part];
+  return at_rest + sum_over_awake(scene, part, [&](Index k) {
+           return sph.m * internal_energy(eos, sph.rho[k]);
+         });
 }
 
 ParticleVote smallest_stable_step(const SphState& sph, const Scene& scene) {

@@ -52,6 +52,8 @@ struct SphState {
   double rho0 = 0;             ///< largest reference density of the parts [kg/m^3]
   std::vector<Murnaghan> eos;  ///< one a part of the scene; unused where it has no particles
   std::vector<int> parts;      ///< numbers of the parts that are made of particles
+  std::vector<bool>
+      restless;  ///< parts that move as they are told, one a part of the scene; or none
 
   Array<double> rho;               ///< density [kg/m^3]
   Array<double> p;                 ///< pressure [Pa]
@@ -74,11 +76,12 @@ struct SphState {
   ClusterList list;
   ListAge age;
   Packed packed;
-  bool packed_pressures = false;  ///< packed by the force stage, not by the rates stage
-  std::int64_t n_builds = 0;      ///< how often the lists were built in this run
-  Array<double> scratch;          ///< one number a particle
-  ParticleVote vote;              ///< of the last choice of the step
-  bool warned = false;            ///< the user knows that sound is too slow
+  bool packed_pressures = false;         ///< packed by the force stage, not by the rates stage
+  std::int64_t n_builds = 0;             ///< how often the lists were built in this run
+  Array<double> scratch;                 ///< one number a particle
+  std::vector<double> internal_at_rest;  ///< of the particles at rest of each part [J]; or empty
+  ParticleVote vote;                     ///< of the last choice of the step
+  bool warned = false;                   ///< the user knows that sound is too slow
 };
 
 /// Whether source k is fluid, and not a particle of a wall.
@@ -100,10 +103,10 @@ ParticleView view_of(const SphState& sph, const Scene& scene);
 /// What pair passes are told.
 PairParameters parameters_of(const SphState& sph);
 
-/// Sum of f(k) over the particles of a part, in chunks that are the same for any number of threads.
-/// f: a function of the particle's index among the particles.
+/// Sum of f(k) over those of the first n particles that are of a part, in chunks that are the same
+/// for any number of threads. f: a function of the particle's index among the particles.
 template <class F>
-auto sum_over_part(const Scene& scene, int part, F&& f) {
+auto sum_over_first(const Scene& scene, Index n, int part, F&& f) {
   using T = std::decay_t<decltype(f(Index{0}))>;
   T zero;
   if constexpr (std::is_arithmetic_v<T>) {
@@ -111,7 +114,7 @@ auto sum_over_part(const Scene& scene, int part, F&& f) {
   } else {
     zero.setZero();
   }
-  return parallel_sum(scene.particles.size(), node_chunk, zero, [&](Index begin, Index end) {
+  return parallel_sum(n, node_chunk, zero, [&](Index begin, Index end) {
     T sum = zero;
     for (Index k = begin; k < end; ++k) {
       if (scene.particle_part[k] == part) sum += f(k);
@@ -120,12 +123,27 @@ auto sum_over_part(const Scene& scene, int part, F&& f) {
   });
 }
 
+/// The sum over all particles of a part.
+template <class F>
+auto sum_over_part(const Scene& scene, int part, F&& f) {
+  return sum_over_first(scene, scene.particles.size(), part, f);
+}
+
+/// The sum over those that are computed, for what is 0 for particles at rest.
+template <class F>
+auto sum_over_awake(const Scene& scene, int part, F&& f) {
+  return sum_over_first(scene, scene.awake().size(), part, f);
+}
+
 /// rho and p of every particle from drho_dt over the step dt [s]:
 ///   rho += drho_dt dt,  p = p(rho)
 void advance_density(SphState& sph, const Scene& scene, double dt);
 
 /// Internal energy of a part, sum m e(rho) [J], zero where all particles have their rho0.
 double internal_energy_of_part(const SphState& sph, const Scene& scene, int part);
+
+/// The same, with what sph.internal_at_rest knows of particles at rest.
+double internal_energy_at_work(const SphState& sph, const Scene& scene, int part);
 
 /// The smallest stable step [s] of the particles with their present rho, p and drho_dt: that of
 /// stable_step() for the largest local speed of sound, c^2 = gamma (p - p0 + B)/rho, the damping of

@@ -47,9 +47,10 @@ void keep_across(const ClusterList& list, std::span<const std::uint8_t> is_wall,
   kept.n_targets = list.n_targets;
   kept.n_sources = list.n_sources;
   kept.n_clusters = list.n_clusters;
+  kept.n_active = list.n_active;
   kept.radius = list.radius;
   kept.offset.assign(static_cast<std::size_t>(list.n_clusters) + 1, 0);
-  parallel_for(list.n_clusters, cluster_chunk, [&](Index begin, Index end) {
+  parallel_for(list.n_active, cluster_chunk, [&](Index begin, Index end) {
     for (Index c = begin; c < end; ++c) {
       if (!holds(list, is_wall, target, c)) continue;
       std::int64_t n = 0;

@@ -38,8 +38,8 @@ WallValues wall_values(const WallSums& sums, const Vec3& g_minus_a);
 /// Which pairs of fluid and wall a list keeps.
 enum class Across { fluid_near_walls, walls_near_fluid };
 
-/// The lists of the clusters that hold wall particles, with the fluid among their sources alone; or
-/// of those that hold fluid, with the walls alone.
+/// The lists of the active clusters that hold wall particles, with the fluid among their sources
+/// alone; or of those that hold fluid, with the walls alone.
 ///   list: of all particles; is_wall: n_sources, 1 for wall particles
 /// kept: the same clusters as `list`, empty where there is nothing to do; `clusters`: numbers of
 /// those that are not empty, rising.

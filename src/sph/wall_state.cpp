@@ -31,10 +31,10 @@ Vec3 centre_at(const WallMotion& motion, double t) {
   return motion.centre + t * mean_over(motion.factor, 0, t) * motion.velocity;
 }
 
-/// Calls f(k, wall) for all particles of walls.
+/// Calls f(k, wall) for the particles of walls that are computed.
 template <class F>
 void for_wall_particles(const Walls& walls, const Scene& scene, F&& f) {
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const Wall* wall = walls.of(scene, k);
       if (wall != nullptr) f(k, *wall);
@@ -82,7 +82,7 @@ void take_walls_out_of_drift(Walls& walls, SphState& sph, const Scene& scene) {
                {.drho_dt = walls.drho_dt_beside.data(), .X = walls.X_beside.data()},
                {.clusters = walls.clusters_beside});
   }
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       if (walls.is_wall[k] == 0) {
         add_xyz(sph.X[k], -xyz(walls.X_beside[k]));
@@ -122,7 +122,7 @@ void set_dry_values(Walls& walls, SphState& sph, const Scene& scene) {
   const Line* f = scene.nodes.f.data() + scene.particles.begin;
   const auto n = static_cast<std::size_t>(sph.list.n_sources);
   sph.v_seen.resize(n);
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.seen().size(), node_chunk, [&](Index begin, Index end) {
     std::copy(v + begin, v + end, sph.v_seen.data() + begin);
   });
   for_wall_particles(walls, scene, [&](Index k, const Wall&) {
@@ -240,12 +240,12 @@ void set_wall_force(Walls& walls, SphState& sph, Scene& scene) {
     add_xyz(f[k], xyz(walls.f[k]));
   });
   for (Wall& wall : walls.list) {
-    wall.force = sum_over_part(scene, wall.part, [&](Index k) { return xyz(walls.f[k]); });
+    wall.force = sum_over_awake(scene, wall.part, [&](Index k) { return xyz(walls.f[k]); });
     wall.viscous_force = Vec3::Zero();
     for (const WallTerm& term : walls.terms) {
       if (!term.viscous) continue;
       wall.viscous_force +=
-          sum_over_part(scene, wall.part, [&](Index k) { return xyz(term.f[k]); });
+          sum_over_awake(scene, wall.part, [&](Index k) { return xyz(term.f[k]); });
     }
   }
 }
@@ -288,8 +288,8 @@ void kick_walls(Walls& walls, Scene& scene, const Step& step) {
 }
 
 double wall_power(const Walls& walls, const SphState& sph, const Scene& scene, const Wall& wall) {
-  return sph.m * sum_over_part(scene, wall.part,
-                               [&](Index k) { return walls.p_rho2[k] * walls.drho_dt[k]; });
+  return sph.m * sum_over_awake(scene, wall.part,
+                                [&](Index k) { return walls.p_rho2[k] * walls.drho_dt[k]; });
 }
 
 }  // namespace gannet

@@ -278,7 +278,7 @@ bool has_walls(const Scene& scene) { return scene.store.has<Walls>(); }
 
 /// Work of the forces on a wall along the path of its particles at level n [J].
 Work work_on(const Scene& scene, const Wall& wall, const Array<Line>& force, const Step& step) {
-  return sum_over_part(scene, wall.part, [&](Index k) -> Work {
+  return sum_over_awake(scene, wall.part, [&](Index k) -> Work {
     return work_along(work_path(scene.nodes, scene.particles.begin + k, step), xyz(force[k]));
   });
 }
@@ -341,6 +341,10 @@ void add_operations(const Keys& /*root*/, Scene& scene, Models& models) {
   auto& sph = scene.store.get<SphState>();
   Plan& plan = models.of_node(scene.particles.begin).plan;
   make_terms(walls, sph);
+  sph.restless.resize(scene.parts.size());
+  for (const Wall& wall : walls.list) {
+    sph.restless[static_cast<std::size_t>(wall.part)] = moves(wall, scene);
+  }
   const std::string reason = asked_for_at(walls.list.front().where);
   plan.add({.name = "force on walls",
             .reason = reason,

@@ -50,7 +50,7 @@ void make_state(const Keys& root, Scene& scene) {
 
 void drift(const SphState& sph, Scene& scene, double dt) {
   Line* x = scene.nodes.x.data() + scene.particles.begin;
-  parallel_for(scene.particles.size(), node_chunk, [&](Index begin, Index end) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) add_xyz(x[k], dt * xyz(sph.X[k]));
   });
 }
@@ -58,7 +58,7 @@ void drift(const SphState& sph, Scene& scene, double dt) {
 /// Work of the weight along the drift that no work path holds: sum m g . X dt [J].
 double work_of_weight(const SphState& sph, const Scene& scene, int part, double dt) {
   return sph.m * dt *
-         sum_over_part(scene, part, [&](Index k) { return scene.gravity.dot(xyz(sph.X[k])); });
+         sum_over_awake(scene, part, [&](Index k) { return scene.gravity.dot(xyz(sph.X[k])); });
 }
 
 void add_operations(const Keys& root, Scene& scene, Models& models) {

@@ -70,10 +70,12 @@ std::string place_of(const Scene& scene, Index i) {
                      x.z);
 }
 
-/// First owned node whose speed is not finite or above the limit; -1 where all are well.
-Index runaway_node(const Nodes& nodes, double limit) {
+/// First node that is computed and whose speed is not finite or above the limit; -1 where all are
+/// well.
+Index runaway_node(const Scene& scene, double limit) {
+  const Nodes& nodes = scene.nodes;
   return parallel_reduce(
-      nodes.n_owned, node_chunk, Index{-1},
+      scene.computed({0, nodes.n_owned}).size(), node_chunk, Index{-1},
       [&](Index a, Index b) {
         for (Index i = a; i < b; ++i) {
           const double v2 = xyz(nodes.v[i]).squaredNorm();
@@ -89,7 +91,7 @@ std::string when(const Step& s) { return fmt::format("t = {:.6g} s, step {}", s.
 
 void check_motion(const Scene& scene, const GuardLimits& limits, const Step& s) {
   const double limit = limits.largest_speed > 0 ? limits.largest_speed : 1e12;
-  const Index i = runaway_node(scene.nodes, limit);
+  const Index i = runaway_node(scene, limit);
   if (i < 0) return;
   const double speed = xyz(scene.nodes.v[i]).norm();
   throw RunError(
@@ -106,7 +108,7 @@ void check_motion(const Scene& scene, const GuardLimits& limits, const Step& s) 
 void check_density(const Scene& scene, const GuardLimits& limits, const Step& s) {
   const Field* rho = scene.field("rho");
   if (rho == nullptr || scene.particles.empty()) return;
-  const Index n = scene.particles.size();
+  const Index n = scene.awake().size();
   const auto value = [&](Index k) { return *reinterpret_cast<const double*>(rho->at(k)); };
   const double mean = parallel_sum(n, node_chunk,
                                    [&](Index a, Index b) {

@@ -9,9 +9,11 @@ namespace gannet {
 
 namespace {
 
+/// Calls f(range) for pieces of the ranges, without particles at rest.
 template <class F>
-void for_nodes(const std::vector<Range>& ranges, F&& f) {
-  for (const Range& r : ranges) {
+void for_nodes(const Scene& scene, const std::vector<Range>& ranges, F&& f) {
+  for (const Range& all : ranges) {
+    const Range r = scene.computed(all);
     parallel_for(r.size(), node_chunk, [&](Index a, Index b) {
       f(Range{r.begin + a, r.begin + b});
     });
@@ -74,7 +76,7 @@ double kinetic_of_range(const Nodes& nodes, const Range& r, double dt) {
 }
 
 double kinetic_of_particles(const Scene& scene, int part, double dt) {
-  const Range r = scene.particles;
+  const Range r = scene.awake();
   return parallel_sum(r.size(), node_chunk, [&](Index a, Index b) {
     double e = 0;
     for (Index k = a; k < b; ++k) {
@@ -105,9 +107,10 @@ void add_kinetic_energy(Scene& scene, Model& model, Ledger& ledger) {
                     const bool several = scene.particles.size() > 0 && scene.parts.size() > 1;
                     for (const Share& share : shares) {
                       const Part& part = scene.parts[static_cast<std::size_t>(share.part)];
-                      share.entry->value = part.is_particles() && several
-                                               ? kinetic_of_particles(scene, share.part, s.dt)
-                                               : kinetic_of_range(scene.nodes, part.nodes, s.dt);
+                      share.entry->value =
+                          part.is_particles() && several
+                              ? kinetic_of_particles(scene, share.part, s.dt)
+                              : kinetic_of_range(scene.nodes, scene.computed(part.nodes), s.dt);
                     }
                   }});
 }
@@ -122,20 +125,20 @@ void add_leapfrog(Scene& scene, Model& model, Ledger& ledger) {
                   .reason = reason,
                   .stage = Stage::force,
                   .writes = {"f", "torque"},
-                  .run = [&nodes, ranges](const Step&) {
-                    for_nodes(ranges, [&](const Range& r) { clear_forces(nodes, r); });
+                  .run = [&scene, &nodes, ranges](const Step&) {
+                    for_nodes(scene, ranges, [&](const Range& r) { clear_forces(nodes, r); });
                   }});
   model.plan.add({.name = "kick",
                   .reason = reason,
                   .stage = Stage::kick,
                   .reads = {"f", "torque"},
                   .writes = {"v", "omega"},
-                  .run = [&nodes, ranges](const Step& s) {
+                  .run = [&scene, &nodes, ranges](const Step& s) {
                     const double dt = 0.5 * (s.dt_old + s.dt);
-                    for_nodes(ranges, [&](const Range& r) { kick(nodes, r, dt); });
+                    for_nodes(scene, ranges, [&](const Range& r) { kick(nodes, r, dt); });
                   }});
-  const auto drift_half = [&nodes, ranges](const Step& s) {
-    for_nodes(ranges, [&](const Range& r) { drift(nodes, r, 0.5 * s.dt); });
+  const auto drift_half = [&scene, &nodes, ranges](const Step& s) {
+    for_nodes(scene, ranges, [&](const Range& r) { drift(nodes, r, 0.5 * s.dt); });
   };
   for (const Stage stage : {Stage::half_drift, Stage::drift}) {
     model.plan.add({.name = stage == Stage::drift ? "drift" : "half drift",

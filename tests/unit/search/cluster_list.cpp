@@ -181,3 +181,24 @@ TEST_CASE("staleness: the largest relative speed, and room for what is to come",
   CHECK_FALSE(stale(0.05, 0.25, 0.07));
   CHECK(stale(0.05, 0.25, 0.08));
 }
+
+TEST_CASE("cluster list: sources that are left out are in no list, all others stay", "[search]") {
+  // Twelve on a line, 1 apart; eight targets, one that stays and two that nobody sees, a ghost.
+  std::vector<Line> x;
+  for (int k = 0; k < 12; ++k) x.push_back({1.0 * k, 0, 0, 0});
+  ClusterList list;
+  build_cluster_list(x, 8, 2.5, list, Isa::avx2, {9, 11});
+  CHECK(list.n_clusters == 1);
+  CHECK(list.n_active == 1);
+  CHECK(list.n_sources == 12);
+  // From -2.5 to 9.5: 0 to 9, of which 9 is left out.
+  std::vector<Index> found(list.source.begin(), list.source.begin() + list.offset[1]);
+  std::sort(found.begin(), found.end());
+  CHECK(found == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8, 12});
+  // The ghost goes by its number among all.
+  x[11] = {-1, 0, 0, 0};
+  build_cluster_list(x, 8, 2.5, list, Isa::avx2, {9, 11});
+  found.assign(list.source.begin(), list.source.begin() + list.offset[1]);
+  std::sort(found.begin(), found.end());
+  CHECK(found == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8, 11});
+}
