@@ -40,6 +40,7 @@ std::vector<Effect> make_table() {
       plane_motion_effect(),   // before lists are made: planes are where they are by then
       wall_pressure_effect(),  // what the force pass of the particles reads
       sph_effect(),            //
+      rest_effect(),           // who is computed, right after the lists
       viscosity_effect(),      //
       laminar_viscosity_effect(),
       tensile_cure_effect(),

@@ -49,6 +49,17 @@ std::vector<OperationCost> operation_costs(const Models& models, double wall) {
   return costs;
 }
 
+RestSaving rest_saving(const Scene& scene, const Models& models) {
+  const Resting& resting = scene.resting;
+  if (!(resting.all_particle_steps > 0)) return {};
+  RestSaving saving{.share = resting.particle_steps / resting.all_particle_steps};
+  for (const OperationCost& c : operation_costs(models, 0)) {
+    if (c.stage != name_of(Stage::look)) saving.seconds += c.seconds;
+  }
+  saving.seconds *= saving.share / (1 - saving.share);
+  return saving;
+}
+
 std::string report(Scene& scene, const Models& models, const RunRecord& record) {
   const double wall = wall_time(record);
   const StepsDone done = steps_done(scene, models, record);
@@ -72,6 +83,14 @@ std::string report(Scene& scene, const Models& models, const RunRecord& record) 
   if (record.output.strays.lost > 0) {
     fmt::format_to(out, "{} particles were lost: behind a wall, or far out (docs/output.md)\n",
                    record.output.strays.lost);
+  }
+  if (scene.resting.all_particle_steps > 0) {
+    const RestSaving saving = rest_saving(scene, models);
+    fmt::format_to(out,
+                   "rest: {:.3g} % of the particles on the mean, {} particle steps not computed; "
+                   "that saved about {}\n",
+                   100 * saving.share, count_text(scene.resting.particle_steps),
+                   duration_text(saving.seconds));
   }
   fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10} {:>7}\n", "stage", "operation", width, "calls",
                  "seconds", "share");

@@ -33,6 +33,17 @@ struct OperationCost {
 /// wall: wall time of the run [s].
 std::vector<OperationCost> operation_costs(const Models& models, double wall);
 
+/// What resting particles saved. The steps are those since the start, whatever process made them;
+/// the seconds are of this process: particle steps not computed at the mean cost of those computed,
+/// over all operations but those of the stage `look`. Lists and all else that rest makes dearer is
+/// in that cost, so it is an estimate from above where much of it does not shrink with the water in
+/// motion.
+struct RestSaving {
+  double share = 0;    ///< of particle steps that were not computed [-]
+  double seconds = 0;  ///< saved in this process [s]
+};
+RestSaving rest_saving(const Scene& scene, const Models& models);
+
 /// The report: how the run ended, and one line an operation: stage, name, calls, seconds, share.
 /// The same list as `gannet explain` prints.
 std::string report(Scene& scene, const Models& models, const RunRecord& record);

@@ -66,6 +66,19 @@ void add_strays(Scene& scene, const RunRecord& record, Json& json) {
   json["deepest_penetration"] = number_json(strays.deepest);
 }
 
+/// What rest saved; nothing where no particle may rest.
+void add_rest(const Scene& scene, const Models& models, Json& json) {
+  const Resting& resting = scene.resting;
+  if (!(resting.all_particle_steps > 0)) return;
+  const RestSaving saving = rest_saving(scene, models);
+  json["rest"] = {
+      {"mean_share", saving.share},
+      {"share_at_end", static_cast<double>(resting.n) / scene.particles.size()},
+      {"particle_steps_saved", resting.particle_steps},
+      {"seconds_saved", saving.seconds},
+      {"momentum_taken", {resting.momentum.x(), resting.momentum.y(), resting.momentum.z()}}};
+}
+
 }  // namespace
 
 std::string summary_text(Scene& scene, const Models& models, const RunRecord& record) {
@@ -91,6 +104,7 @@ std::string summary_text(Scene& scene, const Models& models, const RunRecord& re
                {"particle_steps_per_second", wall > 0 ? done.particle_steps / wall : 0},
                {"element_steps_per_second", wall > 0 ? done.element_steps / wall : 0}};
   add_strays(scene, record, json);
+  add_rest(scene, models, json);
   json["operations"] = operations_json(models, wall);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

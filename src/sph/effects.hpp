@@ -8,6 +8,10 @@ namespace gannet {
 /// parts.NAME.sph: parts made of particles, their pair passes, equation of state and lists.
 Effect sph_effect();
 
+/// effects.rest: water where nothing happens is not computed. Stands right after `sph`, whose lists
+/// it makes anew.
+Effect rest_effect();
+
 /// effects.viscosity: artificial viscosity, a term of the force pass.
 Effect viscosity_effect();
 

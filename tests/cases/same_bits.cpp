@@ -69,6 +69,10 @@ Sample walls_sample() {
   return {[] { return std::make_unique<WatchedRun>(channel); }, 150, false};
 }
 
+Sample resting_sample() {
+  return {[] { return std::make_unique<WatchedRun>(resting); }, 240, false};
+}
+
 Sample sea_sample() {
   return {[] { return std::make_unique<WatchedRun>(sea); }, 150, false};
 }
@@ -310,6 +314,22 @@ TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and 
     if (m.name == "cable.rope.broken") m.sample(&n_broken);
   }
   CHECK(n_broken > 0);
+}
+
+TEST_CASE("same bits: water that rests and wakes, 1, 2, 3 and 5 threads", "[bits]") {
+  check_threads(resting_sample());
+}
+
+TEST_CASE("same bits: restarts of water that rests and wakes", "[bits]") {
+  const auto r = run(resting_sample(), 2);
+  const Resting& resting = r->s->scene.resting;
+  WARN(fmt::format(
+      "{} of {} particles at rest, {} of them unseen; {:.3g} of all particle steps saved",
+      resting.n, r->s->scene.particles.size(), resting.n_unseen,
+      resting.particle_steps / resting.all_particle_steps));
+  CHECK(resting.n_unseen > 0);
+  CHECK(resting.n < 0.9 * r->s->scene.particles.size());
+  check_restart(resting_sample());
 }
 
 TEST_CASE("same bits: restarts of waves over a bed, sponge and relaxation", "[bits]") {

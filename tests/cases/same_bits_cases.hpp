@@ -22,6 +22,35 @@ inline const std::vector<std::string> small_dam{"let.dx=a/60", "output.checkpoin
 inline const std::string taylor_bar = "cases/taylor_bar/case.yaml";
 inline const std::vector<std::string> small_bar{"n=3", "output.checkpoint=never"};
 
+/// A paddle that pushes still water, 200 x 25 particles: at first all of it falls asleep but what
+/// is at the paddle, then its waves wake what they meet, and that goes to sleep again.
+inline const std::string resting = R"case(gannet: 1
+dimension: 2
+curves: {push: [[0 s, 0], [25 ms, 0], [40 ms, 1], [50 ms, 0]]}
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 10 mm, skin: 0.1}
+    fill: {box: {from: [0, 0, 0], to: [2 m, 0.25 m, 0]}}
+    start: hydrostatic
+  paddle:
+    wall: {like: pool, velocity: [0.1 m/s, 0, 0], factor: push}
+    fill: {box: {from: [-30 mm, 0, 0], to: [0, 0.3 m, 0]}}
+boundaries:
+  floor: {planes: {y: 0}}
+  end: {planes: {x: 2 m}, walls: dummy}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+effects:
+  viscosity: {type: monaghan, alpha: 0.2}
+  xsph: {epsilon: 0.3}
+  density_diffusion: {delta: 0.1}
+  rest: {tolerance: 3e-3, quiet: 10 ms}
+probes:
+  gauge: {surface_height: {at: [0.3 m]}}
+  push: {wall_force: paddle}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 /// A shear layer in a periodic plane, 100 x 60 particles, with viscosity and XSPH, and a count of
 /// what crosses a plane.
 inline const std::string periodic_plane = R"(gannet: 1

@@ -28,9 +28,9 @@ struct Pool {
   /// before the lists are built.
   explicit Pool(const std::string& text, int dimension = 3, const Vec3& gravity = Vec3::Zero(),
                 const std::function<void(Scene&)>& change = {}) {
-    const std::array<Effect, 7> effects{
-        sph_effect(),          viscosity_effect(),   xsph_effect(),      periodic_effect(),
-        mirror_walls_effect(), flow_probes_effect(), sph_probes_effect()};
+    const std::array<Effect, 8> effects{
+        sph_effect(),      rest_effect(),         viscosity_effect(),   xsph_effect(),
+        periodic_effect(), mirror_walls_effect(), flow_probes_effect(), sph_probes_effect()};
     Schema schema = mesh_schema();
     for (const Effect& e : effects) {
       if (e.schema == nullptr) continue;
@@ -90,7 +90,7 @@ struct Pool {
   void add_weight(const Vec3& gravity) {
     if (gravity.isZero(0)) return;
     plan().add({.name = "gravity", .stage = Stage::force, .run = [this, gravity](const Step&) {
-                  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
+                  for (Index i = 0; i < scene.computed({0, scene.nodes.n_owned}).end; ++i) {
                     add_xyz(scene.nodes.f[i], scene.nodes.x[i].w * gravity);
                   }
                 }});
