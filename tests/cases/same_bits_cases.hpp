@@ -38,7 +38,7 @@ parts:
     fill: {box: {from: [-30 mm, 0, 0], to: [0, 0.3 m, 0]}}
 boundaries:
   floor: {planes: {y: 0}}
-  end: {planes: {x: 2 m}, walls: dummy}
+  ends: {planes: {x: [-0.5 m, 2 m]}, walls: dummy}
 loads: {gravity: [0, -9.81 m/s^2, 0]}
 effects:
   viscosity: {type: monaghan, alpha: 0.2}
