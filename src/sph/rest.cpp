@@ -150,6 +150,10 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
   auto& rest = scene.store.get<Rest>();
   auto& sph = scene.store.get<SphState>();
   make_cells(root, rest, sph, scene);
+  // Of who comes to rest in the first step after a restart, the rates of the step before are asked.
+  for (Field& field : scene.fields) {
+    if (field.name == "drho_diffusion") field.checkpoint = true;
+  }
   const std::string reason = asked_for_at(root.map("effects").where("rest"));
   Plan& plan = models.of_node(scene.particles.begin).plan;
   LedgerEntry& lost = models.ledger.entry("rest", "");

@@ -96,7 +96,8 @@ Line taken_by_rest(const Rest& rest, const SphState& sph, const Scene& scene,
       [&](Index begin, Index end) {
         Line sum{};
         for (Index k = begin; k < end; ++k) {
-          if (rests[k] == 0 || rest.state[k] >= rest_seen) continue;
+          // Particles of walls go where they are told: no force moves them, nor have they a rate.
+          if (rests[k] == 0 || rest.state[k] >= rest_seen || !is_fluid(scene, k)) continue;
           const Index i = scene.particles.begin + k;
           const double m = nodes.x[i].w;
           const Vec3 v = xyz(nodes.v[i]);
