@@ -105,63 +105,57 @@ BenchResult bench_sph_pass(int n, Pass pass, bool single = false) {
   return r;
 }
 
-/// A wavy sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving.
-BenchResult bench_shell(int n) {
-  const std::string text = fmt::format(
-      "gannet: 1\n"
-      "materials: {{skin: {{card: al_6061_t6}}}}\n"
-      "parts: {{sheet: {{shell: {{material: skin, thickness: 3 mm, points: 5}}, shape: {{plate: "
-      "{{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}\n"
-      "output: {{until: 1 s}}\n",
-      0.02 * n, n);
-  const auto simulation = make_simulation_of_text(text);
-  Scene& scene = simulation->scene;
-  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
-    const Line& x = scene.nodes.x[i];
-    scene.nodes.v[i].z = std::sin(5 * x.x) * std::cos(5 * x.y);
+/// A case of one part of elements, set moving as a wave of 1 m/s and three steps on its way.
+std::unique_ptr<Simulation> moving_elements(const std::string& parts) {
+  auto simulation =
+      make_simulation_of_text(fmt::format("gannet: 1\n"
+                                          "materials: {{metal: {{card: al_6061_t6}}}}\n"
+                                          "parts: {}\n"
+                                          "output: {{until: 1 s}}\n",
+                                          parts));
+  Nodes& nodes = simulation->scene.nodes;
+  for (Index i = 0; i < nodes.n_owned; ++i) {
+    const Line& x = nodes.x[i];
+    nodes.v[i].z = std::sin(5 * x.x) * std::cos(5 * x.y) * std::cos(3 * x.z);
   }
   for (int k = 0; k < 3; ++k) advance(simulation->models);
-  ShellBlock& block = scene.store.get<ShellBlocks>().list.front();
-  const double dt = simulation->models.list.front().step.dt;
-  const double seconds = median_seconds(9, [&] { shell_pass(block, scene.nodes, dt); });
+  return simulation;
+}
+
+/// The rate of pass(block, nodes, dt).
+template <class Block, class Pass>
+BenchResult elements_result(Simulation& simulation, Block& block, Pass&& pass) {
+  const double dt = simulation.models.list.front().step.dt;
   BenchResult r;
   r.size = block.n_elements;
-  r.median_seconds = seconds;
-  r.rate = block.n_elements / seconds;
+  r.median_seconds = median_seconds(9, [&] { pass(block, simulation.scene.nodes, dt); });
+  r.rate = block.n_elements / r.median_seconds;
   r.unit = "element-steps/s";
   r.bytes_per_item =
       8.0 * static_cast<double>(block.state.size()) / static_cast<double>(block.n_elements);
   return r;
 }
 
+/// A sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving.
+BenchResult bench_shell(int n) {
+  const auto simulation = moving_elements(
+      fmt::format("{{sheet: {{shell: {{material: metal, thickness: 3 mm, points: 5}}, shape: "
+                  "{{plate: {{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}",
+                  0.02 * n, n));
+  return elements_result(
+      *simulation, simulation->scene.store.get<ShellBlocks>().list.front(),
+      [](auto& block, Nodes& nodes, double dt) { shell_pass(block, nodes, dt); });
+}
+
 /// A block of n x n x n solids of 20 mm, elastic-plastic, moving.
 BenchResult bench_solid(int n, const char* formulation = "one_point") {
-  const std::string text = fmt::format(
-      "gannet: 1\n"
-      "materials: {{metal: {{card: al_6061_t6}}}}\n"
-      "parts: {{bulk: {{solid: {{material: metal, formulation: {2}}}, shape: {{block: {{from: [0, "
-      "0, "
-      "0], to: [{0} m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}\n"
-      "output: {{until: 1 s}}\n",
-      0.02 * n, n, formulation);
-  const auto simulation = make_simulation_of_text(text);
-  Scene& scene = simulation->scene;
-  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
-    const Line& x = scene.nodes.x[i];
-    scene.nodes.v[i].z = std::sin(5 * x.x) * std::cos(5 * x.y) * std::cos(3 * x.z);
-  }
-  for (int k = 0; k < 3; ++k) advance(simulation->models);
-  SolidBlock& block = scene.store.get<SolidBlocks>().list.front();
-  const double dt = simulation->models.list.front().step.dt;
-  const double seconds = median_seconds(9, [&] { solid_pass(block, scene.nodes, dt); });
-  BenchResult r;
-  r.size = block.n_elements;
-  r.median_seconds = seconds;
-  r.rate = block.n_elements / seconds;
-  r.unit = "element-steps/s";
-  r.bytes_per_item =
-      8.0 * static_cast<double>(block.state.size()) / static_cast<double>(block.n_elements);
-  return r;
+  const auto simulation = moving_elements(
+      fmt::format("{{bulk: {{solid: {{material: metal, formulation: {2}}}, shape: {{block: {{from: "
+                  "[0, 0, 0], to: [{0} m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}",
+                  0.02 * n, n, formulation));
+  return elements_result(
+      *simulation, simulation->scene.store.get<SolidBlocks>().list.front(),
+      [](auto& block, Nodes& nodes, double dt) { solid_pass(block, nodes, dt); });
 }
 
 std::vector<Benchmark> all_benchmarks() {

@@ -41,15 +41,7 @@ std::vector<Key> beam_keys() {
 }
 
 Schema schema() {
-  Schema s = elastic_plastic_schema();
-  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
-  s.push_back({"parts.*",
-               {.name = "beam",
-                .kind = Kind::map,
-                .text = "the part is a line of beam elements",
-                .keys = beam_keys()}});
-  s.push_back({"parts.*", initial_velocity_key()});
-  return s;
+  return element_schema("beam", "the part is a line of beam elements", beam_keys());
 }
 
 void add_parts(const Keys& root, Draft& draft) {
@@ -60,16 +52,8 @@ void add_parts(const Keys& root, Draft& draft) {
     }
     const LineMesh mesh = line_mesh(part);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p;
-    p.name = part.name();
-    p.kind = "beam";
-    p.material = part.map("beam").word("material");
-    p.where = part.where();
-    p.rotations = true;
-    p.cell = Cell::line;
-    p.points = mesh.points;
-    p.connectivity = mesh.cells;
-    p.velocity = initial_velocity(part, p.points);
+    PartDraft p = element_draft(part, "beam", Cell::line, true);
+    set_mesh(part, mesh.points, mesh.cells, p);
     draft.parts.push_back(std::move(p));
   }
 }

@@ -60,30 +60,15 @@ std::vector<Key> cable_keys() {
 }
 
 Schema schema() {
-  Schema s = elastic_plastic_schema();
-  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
-  s.push_back({"parts.*",
-               {.name = "cable",
-                .kind = Kind::map,
-                .text = "the part is a line of cable or truss elements",
-                .keys = cable_keys()}});
-  s.push_back({"parts.*", initial_velocity_key()});
-  return s;
+  return element_schema("cable", "the part is a line of cable or truss elements", cable_keys());
 }
 
 void add_parts(const Keys& root, Draft& draft) {
   for (const Keys& part : parts_with(root, "cable")) {
     const LineMesh mesh = line_mesh(part);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p;
-    p.name = part.name();
-    p.kind = "cable";
-    p.material = part.map("cable").word("material");
-    p.where = part.where();
-    p.cell = Cell::line;
-    p.points = mesh.points;
-    p.connectivity = mesh.cells;
-    p.velocity = initial_velocity(part, p.points);
+    PartDraft p = element_draft(part, "cable", Cell::line, false);
+    set_mesh(part, mesh.points, mesh.cells, p);
     draft.parts.push_back(std::move(p));
   }
 }

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "material/elastic_plastic.hpp"
+#include "mesh/mesh_keys.hpp"
 
 namespace gannet {
 
@@ -30,6 +32,33 @@ std::vector<Keys> parts_with(const Keys& root, const char* kind) {
     if (part.has(kind)) parts.push_back(part);
   }
   return parts;
+}
+
+Schema element_schema(const char* kind, const char* text, std::vector<Key> keys) {
+  Schema s = elastic_plastic_schema();
+  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
+  s.push_back(
+      {"parts.*", {.name = kind, .kind = Kind::map, .text = text, .keys = std::move(keys)}});
+  s.push_back({"parts.*", initial_velocity_key()});
+  return s;
+}
+
+PartDraft element_draft(const Keys& part, const char* kind, Cell cell, bool rotations) {
+  PartDraft draft;
+  draft.name = part.name();
+  draft.kind = kind;
+  draft.material = part.map(kind).word("material");
+  draft.where = part.where();
+  draft.rotations = rotations;
+  draft.cell = cell;
+  return draft;
+}
+
+void set_mesh(const Keys& part, std::vector<Vec3> points, std::vector<Index> cells,
+              PartDraft& draft) {
+  draft.points = std::move(points);
+  draft.connectivity = std::move(cells);
+  draft.velocity = initial_velocity(part, draft.points);
 }
 
 Field element_field(const std::string& name, const std::string& unit, int part,

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "base/keys.hpp"
+#include "base/schema.hpp"
 #include "plan/effect.hpp"
 #include "plan/plan.hpp"
+#include "scene/draft.hpp"
 #include "scene/scene.hpp"
 
 namespace gannet {
@@ -54,6 +56,18 @@ std::string text_of_element(const Scene& scene, int part, Index element);
 
 /// The parts of a case that have the key `kind`, in file order.
 std::vector<Keys> parts_with(const Keys& root, const char* kind);
+
+/// The keys of a part of elements: those of solids under "materials.*", of its geometry, of its
+/// start velocity, and parts.NAME.<kind> with `keys`.
+Schema element_schema(const char* kind, const char* text, std::vector<Key> keys);
+
+/// A part of a case as a draft without a mesh: name, place, material (where one is named) and kind.
+/// The caller says what its cells are and passes on the mesh with set_mesh().
+PartDraft element_draft(const Keys& part, const char* kind, Cell cell, bool rotations);
+
+/// Gives the draft its points [m] and cells, and the start velocity of the part there.
+void set_mesh(const Keys& part, std::vector<Vec3> points, std::vector<Index> cells,
+              PartDraft& draft);
 
 /// Numbers first, first + 1, ... of elements in blocks of eight as a tracked field of a part:
 /// number k of lane l of block b at state[(b n_values + k) 8 + l]. state must stay where it is.

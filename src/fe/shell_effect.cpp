@@ -60,15 +60,7 @@ std::vector<Key> shell_keys() {
 }
 
 Schema schema() {
-  Schema s = elastic_plastic_schema();
-  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
-  s.push_back({"parts.*",
-               {.name = "shell",
-                .kind = Kind::map,
-                .text = "the part is made of 4-node shells",
-                .keys = shell_keys()}});
-  s.push_back({"parts.*", initial_velocity_key()});
-  return s;
+  return element_schema("shell", "the part is made of 4-node shells", shell_keys());
 }
 
 void add_parts(const Keys& root, Draft& draft) {
@@ -79,16 +71,8 @@ void add_parts(const Keys& root, Draft& draft) {
     }
     const SurfaceMesh mesh = surface_mesh(part);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p;
-    p.name = part.name();
-    p.kind = "shell";
-    p.material = part.map("shell").word("material");
-    p.where = part.where();
-    p.rotations = true;
-    p.cell = Cell::quad;
-    p.points = mesh.points;
-    p.connectivity = mesh.quads;
-    p.velocity = initial_velocity(part, p.points);
+    PartDraft p = element_draft(part, "shell", Cell::quad, true);
+    set_mesh(part, mesh.points, mesh.quads, p);
     draft.parts.push_back(std::move(p));
   }
 }

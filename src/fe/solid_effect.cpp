@@ -70,15 +70,7 @@ std::vector<Key> solid_keys() {
 }
 
 Schema schema() {
-  Schema s = elastic_plastic_schema();
-  for (const SchemaEntry& entry : mesh_schema()) s.push_back(entry);
-  s.push_back({"parts.*",
-               {.name = "solid",
-                .kind = Kind::map,
-                .text = "the part is made of solid elements",
-                .keys = solid_keys()}});
-  s.push_back({"parts.*", initial_velocity_key()});
-  return s;
+  return element_schema("solid", "the part is made of solid elements", solid_keys());
 }
 
 void add_parts(const Keys& root, Draft& draft) {
@@ -89,15 +81,8 @@ void add_parts(const Keys& root, Draft& draft) {
     }
     const VolumeMesh mesh = volume_mesh(part, draft.dimension);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p;
-    p.name = part.name();
-    p.kind = "solid";
-    p.material = part.map("solid").word("material");
-    p.where = part.where();
-    p.cell = Cell::hexahedron;
-    p.points = mesh.points;
-    p.connectivity = mesh.cells;
-    p.velocity = initial_velocity(part, p.points);
+    PartDraft p = element_draft(part, "solid", Cell::hexahedron, false);
+    set_mesh(part, mesh.points, mesh.cells, p);
     draft.parts.push_back(std::move(p));
   }
 }
