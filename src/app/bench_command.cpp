@@ -136,12 +136,12 @@ BenchResult elements_result(Simulation& simulation, Block& block, Pass&& pass) {
   return r;
 }
 
-/// A sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving.
-BenchResult bench_shell(int n) {
+/// A sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving. more: keys of the shell.
+BenchResult bench_shell(int n, const char* more = "") {
   const auto simulation = moving_elements(
-      fmt::format("{{sheet: {{shell: {{material: metal, thickness: 3 mm, points: 5}}, shape: "
+      fmt::format("{{sheet: {{shell: {{material: metal, thickness: 3 mm, points: 5{2}}}, shape: "
                   "{{plate: {{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}",
-                  0.02 * n, n));
+                  0.02 * n, n, more));
   return elements_result(
       *simulation, simulation->scene.store.get<ShellBlocks>().list.front(),
       [](auto& block, Nodes& nodes, double dt) { shell_pass(block, nodes, dt); });
@@ -161,6 +161,8 @@ BenchResult bench_solid(int n, const char* formulation = "one_point") {
 std::vector<Benchmark> all_benchmarks() {
   return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
           {"fe.shell.pass.400k", [] { return bench_shell(632); }},
+          {"fe.shell.flat.50k", [] { return bench_shell(224, ", warping: no"); }},
+          {"fe.shell.flat.400k", [] { return bench_shell(632, ", warping: no"); }},
           {"fe.solid.pass.50k", [] { return bench_solid(37); }},
           {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
           {"fe.solid.pass.400k", [] { return bench_solid(74); }},

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "fe/element_blocks.hpp"
 #include "fe/gauss.hpp"
+#include "fe/shell_fibres.hpp"
 
 namespace gannet {
 
@@ -75,6 +76,20 @@ void fill_state(ShellBlock& block, std::span<const Line> x) {
   }
 }
 
+/// Fibres common to the elements around a node, in the frames of the elements.
+void fill_fibres(ShellBlock& block, std::span<const Index> connectivity, std::span<const Line> x) {
+  const std::vector<Vec3> fibre = fibres_of(connectivity, x);
+  for (Index e = 0; e < 8 * block.n_blocks(); ++e) {
+    const Index of = std::min(e, block.n_elements - 1);
+    const Mat3 R = frame_of(block, of, x).axes;
+    for (int a = 0; a < 4; ++a) {
+      const Vec3 p = R.transpose() * fibre[static_cast<std::size_t>(4 * of + a)];
+      block.value(e, block.layout.fibres() + 2 * a) = p.x() / p.z();
+      block.value(e, block.layout.fibres() + 2 * a + 1) = p.y() / p.z();
+    }
+  }
+}
+
 /// Local stress at the middle surface of element e: the point at z = 0 or the two next to it.
 Mat3 middle_stress(const ShellBlock& block, Index e) {
   const int n = block.layout.n_points;
@@ -102,10 +117,11 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
   block.material = material;
   block.section = section;
   block.constants = make_constants(material, section);
-  block.layout = {section.points, material.plastic() ? 4 : 3};
+  block.layout = {section.points, material.plastic() ? 4 : 3, section.warping};
   block.n_elements = static_cast<Index>(connectivity.size() / 4);
   block.corners = corners_by_block(connectivity, 4);
   fill_state(block, x);
+  if (section.warping) fill_fibres(block, connectivity, x);
   block.colouring = colour_chunks(connectivity, 4, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;

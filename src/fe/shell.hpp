@@ -27,6 +27,7 @@ struct ShellSection {
   double hourglass_coefficient = 0.03;  ///< r, see shell_element.hpp
   double shear_factor = 5.0 / 6.0;      ///< kappa
   bool thickness_changes = false;
+  bool warping = true;     ///< the warping correction, see shell_element.hpp
   double dt_factor = 0.9;  ///< share of the stable step that is voted for
 };
 

@@ -26,37 +26,42 @@ std::vector<Key> shell_keys() {
        .text = "strength of the hourglass control, customarily 0.01 to 0.05",
        .fallback = "0.03",
        .limits = between(0, 0.15)}};
-  return {{.name = "material",
-           .kind = Kind::reference,
-           .text = "solid that the shell is made of",
-           .required = true,
-           .refers_to = "materials"},
-          {.name = "thickness",
-           .unit = dim::length,
-           .text = "thickness of the shell",
-           .required = true,
-           .limits = positive()},
-          {.name = "points",
-           .kind = Kind::integer,
-           .text = "points through the thickness; unless said 5, or 3 where the solid is elastic",
-           .limits = between(1, max_shell_points)},
-          {.name = "formulation",
-           .kind = Kind::choice,
-           .text = "element",
-           .fallback = "belytschko_lin_tsay",
-           .choices = {"belytschko_lin_tsay"}},
-          {.name = "hourglass",
-           .kind = Kind::map,
-           .text = "control of the modes that one point of integration does not see",
-           .keys = hourglass},
-          {.name = "thickness_change",
-           .kind = Kind::flag,
-           .text = "the thickness follows the stretching of the shell",
-           .fallback = "no"},
-          {.name = "dt_factor",
-           .text = "share of the stable step of the elements that is used",
-           .fallback = "0.9",
-           .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
+  return {
+      {.name = "material",
+       .kind = Kind::reference,
+       .text = "solid that the shell is made of",
+       .required = true,
+       .refers_to = "materials"},
+      {.name = "thickness",
+       .unit = dim::length,
+       .text = "thickness of the shell",
+       .required = true,
+       .limits = positive()},
+      {.name = "points",
+       .kind = Kind::integer,
+       .text = "points through the thickness; unless said 5, or 3 where the solid is elastic",
+       .limits = between(1, max_shell_points)},
+      {.name = "formulation",
+       .kind = Kind::choice,
+       .text = "element",
+       .fallback = "belytschko_lin_tsay",
+       .choices = {"belytschko_lin_tsay"}},
+      {.name = "hourglass",
+       .kind = Kind::map,
+       .text = "control of the modes that one point of integration does not see",
+       .keys = hourglass},
+      {.name = "thickness_change",
+       .kind = Kind::flag,
+       .text = "the thickness follows the stretching of the shell",
+       .fallback = "no"},
+      {.name = "warping",
+       .kind = Kind::flag,
+       .text = "elements whose corners lie in no plane bend as they should (warping correction)",
+       .fallback = "yes"},
+      {.name = "dt_factor",
+       .text = "share of the stable step of the elements that is used",
+       .fallback = "0.9",
+       .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
 }
 
 Schema schema() {
@@ -90,6 +95,7 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
         hourglass.number_or("coefficient", section.hourglass_coefficient);
   }
   section.thickness_changes = shell.has("thickness_change") && shell.flag("thickness_change");
+  section.warping = !shell.has("warping") || shell.flag("warping");
   section.dt_factor = shell.number_or("dt_factor", section.dt_factor);
   return section;
 }

@@ -23,6 +23,18 @@
 //      Z = y31^2 - y42^2,
 //    and only what differs from it is resisted.
 //
+// Fibres (key `warping`; in place of the correction of Belytschko, Wong & Chiang 1992, Comput.
+// Methods Appl. Mech. Eng. 96, 93-107, and of projections of drilling rotations). The material
+// fibre of corner a, common to the elements around a node, is p_a = e3 + t_a with t_a in the plane.
+// Only its turning against the element strains it: what a node spins about its fibre, beyond the
+// spin s of the element in its plane, is taken out before everything else,
+//   omega_a' = omega_a - t_a (omega_a.e3 - s),  s = (B1.v_y - B2.v_x)/2.
+// Without it that spin, which nothing else resists, gives way in the place of bending and twist
+// where elements are warped or meet at an angle. The moments go the other way, so that the
+// projection keeps force and moment balance, and a rigid rotation has omega_a.e3 = s and strains
+// nothing. Fibres follow their nodes, as seen from the element:
+//   dt_a/dt = (omega_a'.e2 + B1.v_z) e1 + (-omega_a'.e1 + B2.v_z) e2.
+//
 // For *.isa.cpp files only.
 #pragma once
 
@@ -70,6 +82,63 @@ GANNET_INLINE ShellGeometry shell_geometry(const Vec8x3 x[4]) {
   g.Y = x31 * y31 - x42 * y42;
   g.Z = y31 * y31 - y42 * y42;
   return g;
+}
+
+/// Fibres of the corners: components of t in the plane of the element [-].
+struct ShellFibres {
+  Vec8 x[4], y[4];
+};
+
+GANNET_INLINE ShellFibres load_fibres(const double* state) {
+  ShellFibres t;
+  for (int a = 0; a < 4; ++a) {
+    t.x[a] = Vec8::load(state + 16 * a);
+    t.y[a] = Vec8::load(state + 16 * a + 8);
+  }
+  return t;
+}
+
+GANNET_INLINE Vec8x3 in_plane(const ShellGeometry& g, Vec8 x, Vec8 y) {
+  return scaled(g.e1, x) + scaled(g.e2, y);
+}
+
+/// Takes what nodes spin about their fibres out of the angular velocities w [rad/s], and carries
+/// the fibres in `state` from n-1 to n. v: [m/s]; dt: [s].
+GANNET_INLINE void follow_fibres(const ShellGeometry& g, const Vec8x3 v[4], Vec8x3 w[4],
+                                 double* state, Vec8 dt) {
+  const Vec8x3 v13 = v[0] - v[2];
+  const Vec8x3 v24 = v[1] - v[3];
+  const Vec8x3 L1 = scaled(v13, g.B11) + scaled(v24, g.B12);
+  const Vec8x3 L2 = scaled(v13, g.B21) + scaled(v24, g.B22);
+  const Vec8 spin = Vec8(0.5) * (dot(L1, g.e2) - dot(L2, g.e1));
+  const Vec8 Lzx = dot(L1, g.e3);
+  const Vec8 Lzy = dot(L2, g.e3);
+  const ShellFibres t = load_fibres(state);
+  for (int a = 0; a < 4; ++a) {
+    const Vec8 s = spin - dot(w[a], g.e3);
+    w[a] = w[a] + in_plane(g, t.x[a] * s, t.y[a] * s);
+    (t.x[a] + dt * (dot(w[a], g.e2) + Lzx)).store(state + 16 * a);
+    (t.y[a] + dt * (Lzy - dot(w[a], g.e1))).store(state + 16 * a + 8);
+  }
+}
+
+/// The transpose of taking the spin out: turns moments [N m] on what is left of the angular
+/// velocities into moments and forces [N] on the nodes.
+GANNET_INLINE void give_back_spin(const ShellGeometry& g, const ShellFibres& t, Vec8x3 f[4],
+                                  Vec8x3 m[4]) {
+  Vec8 sum(0.0);
+  for (int a = 0; a < 4; ++a) {
+    const Vec8 s = dot(m[a], in_plane(g, t.x[a], t.y[a]));
+    m[a] = m[a] - scaled(g.e3, s);
+    sum += s;
+  }
+  const Vec8 half = Vec8(0.5) * sum;
+  const Vec8x3 f1 = in_plane(g, -half * g.B21, half * g.B11);
+  const Vec8x3 f2 = in_plane(g, -half * g.B22, half * g.B12);
+  f[0] = f[0] + f1;
+  f[1] = f[1] + f2;
+  f[2] = f[2] - f1;
+  f[3] = f[3] - f2;
 }
 
 /// Increments over a step, in the frame of the element.
@@ -306,6 +375,37 @@ GANNET_INLINE void shell_corner_forces(const ShellGeometry& g, const ShellResult
   m[3] = odd - M2;
 }
 
+/// The bound where the element bends and shears through fibres (all terms times the mass of a
+/// corner). With w = (1 + p^2)^(1/2), p the largest slope, turning of the nodes counts at most w
+/// times as much; the spin of the element in its plane adds to the odd patterns of turning, which
+/// bend, and to the even ones, which shear,
+///   x_b^2 = alpha (sum |t|^2) tr(G)/4,  x_s^2 = |mean t|^2 tr(G)/4
+/// (v and omega scaled by the roots of mass and inertia), so that the larger eigenvalue counts of
+///   [membrane + bending x_b^2 + kappa G t A x_s^2, c; c, max(bending, shear) w^2],
+///   c = (bending x_b + (shear kappa G t A)^(1/2) x_s) w.
+GANNET_INLINE Vec8 bound_with_fibres(const ShellFibres& t, Vec8 membrane, Vec8 bending, Vec8 shear,
+                                     Vec8 GtA, Vec8 trace, Vec8 inverse_alpha) {
+  Vec8 squares(0.0);
+  Vec8 most(0.0);
+  Vec8 sum_x(0.0);
+  Vec8 sum_y(0.0);
+  for (int a = 0; a < 4; ++a) {
+    const Vec8 slope = t.x[a] * t.x[a] + t.y[a] * t.y[a];
+    squares += slope;
+    most = max(most, slope);
+    sum_x += t.x[a];
+    sum_y += t.y[a];
+  }
+  const Vec8 x_b2 = Vec8(0.25) * squares * trace / inverse_alpha;
+  const Vec8 x_s2 = Vec8(1.0 / 64.0) * (sum_x * sum_x + sum_y * sum_y) * trace;
+  const Vec8 w2 = Vec8(1.0) + most;
+  const Vec8 a = membrane + bending * x_b2 + GtA * x_s2;
+  const Vec8 b = max(bending, shear) * w2;
+  const Vec8 c = bending * sqrt(x_b2) + sqrt(shear * GtA * x_s2);
+  const Vec8 half_gap = Vec8(0.5) * (a - b);
+  return Vec8(0.5) * (a + b) + sqrt(half_gap * half_gap + c * c * w2);
+}
+
 /// Bound of the largest squared frequency of each element [1/s^2], from its own lumped mass, so
 /// that no assembly of such elements has a higher one. With m the mass and I = alpha m the rotary
 /// inertia of a corner, alpha = max(t0^2/12, A0/8), lambda the larger eigenvalue of the Gram matrix
@@ -314,9 +414,11 @@ GANNET_INLINE void shell_corner_forces(const ShellGeometry& g, const ShellResult
 ///   bending   (t^3 A/(12 I)) c_max lambda: below the membrane's, as alpha >= t^2/12
 ///   shear     kappa G t A (lambda/m + 1/(4 I))
 /// These act on orthogonal patterns of the corners, so the largest counts; the hourglass modes
-/// (K |gamma|^2/m and alike) may overlap with them and are added.
+/// (K |gamma|^2/m and alike) may overlap with them and are added. What fibres change:
+/// bound_with_fibres(). fibres: their state; nullptr where there are none.
 GANNET_INLINE Vec8 shell_omega2(const ShellConstants& c, const ShellGeometry& g, Vec8 t,
-                                Vec8 inverse_A0, const HourglassStiffness& K) {
+                                Vec8 inverse_A0, const HourglassStiffness& K,
+                                const double* fibres) {
   const Vec8 two(2.0);
   const Vec8 g11 = two * (g.B11 * g.B11 + g.B12 * g.B12);
   const Vec8 g22 = two * (g.B21 * g.B21 + g.B22 * g.B22);
@@ -327,15 +429,20 @@ GANNET_INLINE Vec8 shell_omega2(const ShellConstants& c, const ShellGeometry& g,
   const Vec8 inverse_m = Vec8(1.0 / c.nodal_mass_factor) * inverse_A0;
   const Vec8 inverse_alpha = min(Vec8(12.0 / (c.thickness * c.thickness)), Vec8(8.0) * inverse_A0);
   const Vec8 tA = t * g.area;
-  const Vec8 bending_over_membrane = max(t * t * inverse_alpha * Vec8(1.0 / 12.0), Vec8(1.0));
-  const Vec8 membrane = Vec8(c.membrane_modulus) * lambda * bending_over_membrane;
-  const Vec8 shear = Vec8(c.shear_factor * c.law.shear) * (lambda + Vec8(0.25) * inverse_alpha);
+  const Vec8 thickness_ratio = t * t * inverse_alpha * Vec8(1.0 / 12.0);
   const Vec8 gamma2 = Vec8(4.0) + g.hx * g.hx * g11 + two * g.hx * g.hy * g12 + g.hy * g.hy * g22;
   const Vec8 bend2 = g.X * g.X + two * g.Y * g.Y + g.Z * g.Z;
   const Vec8 hourglass = gamma2 * (K.membrane + K.warp + K.bending * inverse_alpha) +
                          g.hz * g.hz * lambda * K.membrane +
                          Vec8(1.0 / 16.0) * K.warp * bend2 * lambda * inverse_alpha;
-  return inverse_m * (tA * max(membrane, shear) + hourglass);
+  const Vec8 membrane = tA * Vec8(c.membrane_modulus) * lambda;
+  const Vec8 bending = membrane * thickness_ratio;
+  const Vec8 GtA = Vec8(c.shear_factor * c.law.shear) * tA;
+  const Vec8 shear = GtA * (lambda + Vec8(0.25) * inverse_alpha);
+  const Vec8 all = fibres == nullptr ? max(max(membrane, bending), shear)
+                                     : bound_with_fibres(load_fibres(fibres), membrane, bending,
+                                                         shear, GtA, g11 + g22, inverse_alpha);
+  return inverse_m * (all + hourglass);
 }
 
 }  // namespace gannet::GANNET_ISA_NS

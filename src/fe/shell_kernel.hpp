@@ -34,12 +34,15 @@ struct ShellConstants {
 /// state[(block * n_values + k) * 8 + l].
 struct ShellLayout {
   int n_points = 5;
-  int per_point = 4;  ///< sigma_xx, sigma_yy, sigma_xy [Pa], eps_p [-] (3 where elastic)
+  int per_point = 4;        ///< sigma_xx, sigma_yy, sigma_xy [Pa], eps_p [-] (3 where elastic)
+  bool has_fibres = false;  ///< the warping correction, see shell_element.hpp
   [[nodiscard]] int shear() const { return n_points * per_point; }    ///< sigma_xz, sigma_yz [Pa]
   [[nodiscard]] int hourglass() const { return shear() + 2; }         ///< Q1..Q3 [N], Q4, Q5 [N m]
   [[nodiscard]] int thickness() const { return hourglass() + 5; }     ///< t [m]; 0 in empty lanes
   [[nodiscard]] int inverse_area() const { return thickness() + 1; }  ///< 1/A0 [1/m^2]
-  [[nodiscard]] int n_values() const { return inverse_area() + 1; }
+  /// tx, ty of the four corners [-], where there are fibres
+  [[nodiscard]] int fibres() const { return inverse_area() + 1; }
+  [[nodiscard]] int n_values() const { return fibres() + (has_fibres ? 8 : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.

@@ -58,6 +58,8 @@ GANNET_INLINE void shell_block(const ShellPass& pass, std::int32_t block, ShellL
   Vec8x3 middle[4];
   for (int a = 0; a < 4; ++a) middle[a] = x[a] - scaled(v[a], Vec8(0.5 * pass.dt));
   const ShellGeometry half = shell_geometry(middle);
+  double* fibres = layout.has_fibres ? state + 8 * layout.fibres() : nullptr;
+  if (fibres != nullptr) follow_fibres(half, v, w, fibres, Vec8(pass.dt));
   const ShellIncrements d = shell_increments(half, v, w, Vec8(pass.dt));
   const Vec8 t = Vec8::load(state + 8 * layout.thickness());
   ShellResultants r;
@@ -75,10 +77,12 @@ GANNET_INLINE void shell_block(const ShellPass& pass, std::int32_t block, ShellL
   Vec8x3 f[4];
   Vec8x3 m[4];
   shell_corner_forces(now, r, f, m);
+  if (fibres != nullptr) give_back_spin(now, load_fibres(fibres), f, m);
   scatter_corners(pass.f, corners, f);
   scatter_corners(pass.torque, corners, m);
 
-  const Vec8 omega2 = shell_omega2(c, now, t, Vec8::load(state + 8 * layout.inverse_area()), K);
+  const Vec8 omega2 =
+      shell_omega2(c, now, t, Vec8::load(state + 8 * layout.inverse_area()), K, fibres);
   const auto larger = less(sums.omega2, omega2);
   sums.omega2 = select(larger, omega2, sums.omega2);
   sums.block = select(larger, Vec8(static_cast<double>(block)), sums.block);

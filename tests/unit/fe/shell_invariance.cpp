@@ -28,13 +28,13 @@ Vec3 total_moment(const Nodes& nodes) {
 }
 
 /// Turns the sheet rigidly by `angle` about `axis` (a unit vector through the origin) as a time
-/// integration does: v is the chord over the step, omega the true angular velocity.
-void turn(Sheet& s, const Vec3& axis, double angle, double dt) {
+/// integration does: v is the chord over the step. omega: angular velocity of the nodes [rad/s].
+void turn(Sheet& s, const Vec3& axis, double angle, double dt, double omega) {
   const Mat3 R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
   for (std::size_t i = 0; i < s.size(); ++i) {
     const Vec3 x = xyz(s.nodes.x[i]);
     set_xyz(s.nodes.v[i], (R * x - x) / dt);
-    set_xyz(s.nodes.omega[i], angle / dt * axis);
+    set_xyz(s.nodes.omega[i], omega * axis);
     set_xyz(s.nodes.x[i], R * x);
   }
 }
@@ -65,29 +65,54 @@ double largest_shear(const ShellBlock& block) {
 
 TEST_CASE("shell: rigid rotation of warped elements strains nothing", "[fe][convergence]") {
   const Vec3 axis = Vec3(1, 2, -0.5).normalized();
+  const double dt = 1e-4;
   for (const Isa set : sets()) {
-    const auto shear_after = [&](int n_steps) {
+    const bool warping = GENERATE(false, true);
+    // What is left after a turn by 1 rad, nodes turning at spin(angle of a step)/dt.
+    const auto left_after = [&](int n_steps, auto&& spin) {
       Sheet s = crumpled(4, 3, 1);
-      ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.01});
+      ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.01, .warping = warping});
       for (int k = 0; k < n_steps; ++k) {
-        turn(s, axis, 1.0 / n_steps, 1e-4);
+        turn(s, axis, 1.0 / n_steps, dt, spin(1.0 / n_steps) / dt);
         clear_forces(s.nodes);
-        shell_pass(block, s.nodes, 1e-4, set);
+        shell_pass(block, s.nodes, dt, set);
       }
-      // The chord of a rigid rotation has no symmetric gradient at the midpoint: exact.
-      CHECK(largest_in_plane(block) < 1e-13);
       for (Index e = 0; e < block.n_elements; ++e) {
-        for (int q = 0; q < 3; ++q) {  // forces of the hourglass modes against E t A^(1/2)
+        for (int q = 0; q < 2; ++q) {  // forces of the hourglass modes against E t A^(1/2)
           CHECK(std::abs(block.value(e, block.layout.hourglass() + q)) < 1e-13 * 210e9 * 1e-3);
         }
       }
-      return largest_shear(block);
+      return std::max(largest_in_plane(block), largest_shear(block));
     };
-    // Transverse shear compares the chord with the rotation of the nodes: 2 tan(a/2) against a.
-    const double coarse = shear_after(10);
-    const double fine = shear_after(20);
+    // Chords of a turn by a are omega x (the middle) with |omega| dt = 2 tan(a/2): nodes that turn
+    // so fast strain nothing, by rounding. At the true speed a/dt it is of second order in a.
+    CHECK(left_after(10, [](double a) { return 2 * std::tan(a / 2); }) < 1e-13);
+    const double coarse = left_after(10, [](double a) { return a; });
+    const double fine = left_after(20, [](double a) { return a; });
     CHECK(std::log2(coarse / fine) == Approx(2).margin(0.05));
     CHECK(fine < 1e-3 / 12);
+  }
+}
+
+TEST_CASE("shell: a node that spins about its fibre strains nothing", "[fe]") {
+  // The hyperbolic paraboloid z = k x y has the normal (-k y, -k x, 1) at a corner, to first order
+  // in the slope: the spin is seen by what is left, of second order.
+  for (const Isa set : sets()) {
+    const auto seen = [&](double k, bool warping) {
+      Sheet s = grid(1, 1, [&](int i, int j) {
+        const double x = 0.1 * i - 0.05;
+        const double y = 0.1 * j - 0.05;
+        return Vec3(x, y, k * x * y);
+      });
+      ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.01, .warping = warping});
+      const Vec3 x = xyz(s.nodes.x[3]);
+      set_xyz(s.nodes.omega[3], Vec3(-k * x.y(), -k * x.x(), 1));
+      const double dt = 1e-9;
+      shell_pass(block, s.nodes, dt, set);
+      return std::max(largest_in_plane(block), largest_shear(block)) / dt;
+    };
+    CHECK(seen(0.2, false) > 10 * seen(0.2, true));
+    CHECK(seen(0.2, true) < 1e-16 / 1e-9);
   }
 }
 
@@ -130,9 +155,11 @@ TEST_CASE("shell: stress and forces turn with the body", "[fe]") {
 
 TEST_CASE("shell: forces and moments of warped elements balance", "[fe]") {
   for (const Isa set : sets()) {
+    const bool warping = GENERATE(false, true);
     for (const auto form : {HourglassForm::stiffness, HourglassForm::viscous}) {
       Sheet s = crumpled(5, 5, 4);
-      ShellBlock block = block_of(s, steel, {.thickness = 0.01, .hourglass = form});
+      ShellBlock block =
+          block_of(s, steel, {.thickness = 0.01, .hourglass = form, .warping = warping});
       random_motion(s, 5, 2, 20);
       const double dt = 5e-6;
       for (int k = 0; k < 20; ++k) {
@@ -149,6 +176,63 @@ TEST_CASE("shell: forces and moments of warped elements balance", "[fe]") {
       CHECK(total_moment(s.nodes).norm() < 1e-14 * scale);  // lever arms are below 1 m
     }
   }
+}
+
+namespace {
+
+struct Momentum {
+  Vec3 p = Vec3::Zero();
+  Vec3 L = Vec3::Zero();
+  double p_scale = 0;
+  double L_scale = 0;
+};
+
+/// Of all nodes, about the origin, at entry to a step.
+Momentum momentum_of(const Nodes& nodes) {
+  Momentum m;
+  for (std::size_t i = 0; i < nodes.x.size(); ++i) {
+    const Vec3 mv = nodes.x[i].w * xyz(nodes.v[i]);
+    const Vec3 spin = nodes.torque[i].w * xyz(nodes.omega[i]);
+    m.p += mv;
+    m.L += xyz(nodes.x[i]).cross(mv) + spin;
+    m.p_scale += mv.norm();
+    m.L_scale += xyz(nodes.x[i]).norm() * mv.norm() + spin.norm();
+  }
+  return m;
+}
+
+/// A step of the leapfrog without anything but the shells.
+double free_step(ShellBlock& block, Nodes& nodes, double dt_old) {
+  clear_forces(nodes);
+  shell_pass(block, nodes, dt_old);
+  const double dt = stable_step(block);
+  for (std::size_t i = 0; i < nodes.x.size(); ++i) {
+    add_xyz(nodes.v[i], 0.5 * (dt_old + dt) / nodes.x[i].w * xyz(nodes.f[i]));
+    add_xyz(nodes.omega[i], 0.5 * (dt_old + dt) / nodes.torque[i].w * xyz(nodes.torque[i]));
+    add_xyz(nodes.x[i], dt * xyz(nodes.v[i]));
+  }
+  return dt;
+}
+
+}  // namespace
+
+TEST_CASE("shell: a warped sheet that flies and crumples keeps both momenta", "[fe]") {
+  const bool plastic = GENERATE(false, true);
+  Sheet s = crumpled(8, 6, 31);
+  ShellBlock block = block_of(s, plastic ? steel : elastic_steel, {.thickness = 0.005});
+  add_shell_masses(block, s.nodes);
+  random_motion(s, 32, 20, 100);
+  for (Line& v : s.nodes.v) v.x += 30;
+  const Momentum before = momentum_of(s.nodes);
+  double dt = 0;
+  for (int k = 0; k < 3000; ++k) dt = free_step(block, s.nodes, dt);
+  const Momentum after = momentum_of(s.nodes);
+  const double p_error = (after.p - before.p).norm() / before.p_scale;
+  const double L_error = (after.L - before.L).norm() / before.L_scale;
+  WARN("3000 steps: momentum " << p_error << ", angular momentum " << L_error
+                               << " of their scales");
+  CHECK(p_error < 1e-12);
+  CHECK(L_error < 1e-9);
 }
 
 TEST_CASE("shell: forces are the transpose of the strains", "[fe]") {
@@ -169,51 +253,62 @@ TEST_CASE("shell: forces are the transpose of the strains", "[fe]") {
   }
 }
 
+namespace {
+
+/// The bound of one element over its highest squared frequency: from its stiffness, column by
+/// column from unit velocities, against its lumped mass.
+double bound_over_frequency(Sheet s, const ElasticPlastic& m, const ShellSection& section) {
+  const ShellBlock fresh = block_of(s, m, section);
+  add_shell_masses(fresh, s.nodes);
+  Eigen::MatrixXd K(24, 24);
+  double bound = 0;
+  const double dt = 1e-14;
+  for (int c = 0; c < 24; ++c) {
+    ShellBlock block = fresh;
+    clear_forces(s.nodes);
+    for (std::size_t i = 0; i < 4; ++i) {
+      Vec3 v = Vec3::Zero();
+      Vec3 w = Vec3::Zero();
+      if (c / 6 == static_cast<int>(i)) (c % 6 < 3 ? v : w)[c % 3] = 1;
+      set_xyz(s.nodes.v[i], v);
+      set_xyz(s.nodes.omega[i], w);
+    }
+    shell_pass(block, s.nodes, dt);
+    bound = block.omega2;
+    for (int i = 0; i < 4; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      for (int d = 0; d < 3; ++d) {
+        K(6 * i + d, c) = -xyz(s.nodes.f[n])[d] / dt / std::sqrt(s.nodes.x[n].w);
+        K(6 * i + 3 + d, c) = -xyz(s.nodes.torque[n])[d] / dt / std::sqrt(s.nodes.torque[n].w);
+      }
+    }
+    const auto column = static_cast<std::size_t>(c / 6);
+    K.col(c) /= std::sqrt(c % 6 < 3 ? s.nodes.x[column].w : s.nodes.torque[column].w);
+  }
+  CHECK((K - K.transpose()).norm() < 1e-9 * K.norm());
+  return bound / Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().maxCoeff();
+}
+
+}  // namespace
+
 TEST_CASE("shell: the frequency bound holds and is close", "[fe]") {
-  // The stiffness of one element, column by column from unit velocities, against its lumped mass.
+  const bool warping = GENERATE(false, true);
+  const double noise = GENERATE(0.005, 0.025);  // of corners of a square of 0.1
   double tightest = 10;
   double loosest = 0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
     const double thickness = seed % 2 == 0 ? 0.005 : 0.08;
     const double nu = seed % 3 == 0 ? 0.0 : 0.33;
-    Sheet s = crumpled(1, 1, 100 + seed, seed == 0 ? 0.0 : 0.025);
-    const ElasticPlastic m{.rho = 7800, .E = 210e9, .nu = nu};
-    const ShellBlock fresh = block_of(s, m, {.thickness = thickness});
-    add_shell_masses(fresh, s.nodes);
-    Eigen::MatrixXd K(24, 24);
-    double bound = 0;
-    const double dt = 1e-14;
-    for (int c = 0; c < 24; ++c) {
-      ShellBlock block = fresh;
-      clear_forces(s.nodes);
-      for (std::size_t i = 0; i < 4; ++i) {
-        Vec3 v = Vec3::Zero();
-        Vec3 w = Vec3::Zero();
-        if (c / 6 == static_cast<int>(i)) (c % 6 < 3 ? v : w)[c % 3] = 1;
-        set_xyz(s.nodes.v[i], v);
-        set_xyz(s.nodes.omega[i], w);
-      }
-      shell_pass(block, s.nodes, dt);
-      bound = block.omega2;
-      for (int i = 0; i < 4; ++i) {
-        const auto n = static_cast<std::size_t>(i);
-        for (int d = 0; d < 3; ++d) {
-          K(6 * i + d, c) = -xyz(s.nodes.f[n])[d] / dt / std::sqrt(s.nodes.x[n].w);
-          K(6 * i + 3 + d, c) = -xyz(s.nodes.torque[n])[d] / dt / std::sqrt(s.nodes.torque[n].w);
-        }
-      }
-      const auto column = static_cast<std::size_t>(c / 6);
-      K.col(c) /= std::sqrt(c % 6 < 3 ? s.nodes.x[column].w : s.nodes.torque[column].w);
-    }
-    CHECK((K - K.transpose()).norm() < 1e-9 * K.norm());
-    const double omega2 =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().maxCoeff();
-    CHECK(omega2 <= bound * (1 + 1e-12));
-    tightest = std::min(tightest, bound / omega2);
-    loosest = std::max(loosest, bound / omega2);
+    const double ratio = bound_over_frequency(crumpled(1, 1, 100 + seed, seed == 0 ? 0.0 : noise),
+                                              {.rho = 7800, .E = 210e9, .nu = nu},
+                                              {.thickness = thickness, .warping = warping});
+    tightest = std::min(tightest, ratio);
+    loosest = std::max(loosest, ratio);
   }
-  CAPTURE(tightest, loosest);
-  CHECK(loosest < 1.35);  // 1.02 to 1.29 reached: up to 12 % of the step given away
+  CAPTURE(warping, noise, tightest, loosest);
+  CHECK(tightest >= 1 - 1e-12);
+  // Up to 12 % of the step given away, 25 % by fibres that lean by half their length.
+  CHECK(loosest < (noise > 0.01 && warping ? 1.8 : 1.35));
 }
 
 TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {
