@@ -74,15 +74,18 @@ struct PairJob {
 };
 
 /// How a pass is done. Eight kernels serve all: the cubic spline with the terms that most scenes
-/// have is compiled on its own, the others share one with every kernel and term.
+/// have is compiled on its own, the others share one with every kernel and term. Two more are of
+/// the bench alone.
 enum class PairKernel {
-  rates_cubic,   ///< rate, xsph, diffusion
-  rates_any,     ///< all terms of the rates
-  rates_single,  ///< the same in single precision
-  force_cubic,   ///< force, viscous
-  force_any,     ///< all terms of the force
-  force_single,  ///< the same in single precision
-  fused,         ///< rate, force, viscous with the cubic spline; for the bench
+  rates_cubic,         ///< rate, xsph, diffusion
+  rates_cubic_single,  ///< the same in single precision
+  rates_any,           ///< all terms of the rates
+  rates_any_single,
+  force_cubic,  ///< force, viscous
+  force_cubic_single,
+  force_any,  ///< all terms of the force
+  force_any_single,
+  fused,  ///< rate, force, viscous with the cubic spline
   fused_single
 };
 

@@ -89,6 +89,8 @@ void pack_single(const ParticleView& view, double reach, Packed& packed) {
   packed.x_unit = half / most;
   packed.v_unit = std::max(extent.speed, 1e-30) / most;
   packed.singles.resize(packed_size(view));
+  const double per_x = 1 / packed.x_unit;
+  const double per_v = 1 / packed.v_unit;
   const bool of_s = view.p == nullptr && view.s != nullptr && view.n_sources > 0;
   const double s_0 = of_s ? view.s[0] : 0.0;
   parallel_for(static_cast<Index>(packed.singles.size()), node_chunk, [&](Index begin, Index end) {
@@ -96,8 +98,8 @@ void pack_single(const ParticleView& view, double reach, Packed& packed) {
     for_seen(view, begin, last, [&](Index from, Index to) {
       for (Index i = from; i < to; ++i) {
         PackedSingle& line = packed.singles[i];
-        const Vec3 x = (xyz(view.x[i]) - middle) / packed.x_unit;
-        const Vec3 v = xyz(view.v[i]) / packed.v_unit;
+        const Vec3 x = (xyz(view.x[i]) - middle) * per_x;
+        const Vec3 v = xyz(view.v[i]) * per_v;
         for (int d = 0; d < 3; ++d) line.x[d] = whole(x[d]);
         for (int d = 0; d < 3; ++d) line.v[d] = whole(v[d]);
         line.rho = static_cast<float>(view.rho[i]);

@@ -29,12 +29,17 @@ void choose_clusters(PairJob& job, std::span<const Index> clusters) {
   job.last = static_cast<Index>(clusters.size());
 }
 
+/// A kernel in double and in single precision.
+struct KernelPair {
+  PairKernel in_double;
+  PairKernel in_single;
+};
+
 /// The kernel that is compiled for what a job asks.
-PairKernel kernel_for(const PairJob& job, unsigned usual, PairKernel cubic, PairKernel any,
-                      PairKernel single) {
-  if (job.single != nullptr) return single;
+PairKernel kernel_for(const PairJob& job, unsigned usual, KernelPair cubic, KernelPair any) {
   const bool is_cubic = job.kernel == static_cast<int>(KernelType::cubic_spline);
-  return is_cubic && (job.terms & ~usual) == 0 ? cubic : any;
+  const KernelPair& both = is_cubic && (job.terms & ~usual) == 0 ? cubic : any;
+  return job.single == nullptr ? both.in_double : both.in_single;
 }
 
 }  // namespace
@@ -88,8 +93,9 @@ void pair_rates(const ClusterList& list, const Packed& packed, const PairParamet
   if (out.drho_correction != nullptr) job.terms |= rate_correction_term;
   if (out.concentration != nullptr) job.terms |= concentration_term;
   if (out.sum_mW != nullptr) job.terms |= shepard_term;
-  over_clusters(kernel_for(job, rate_term | xsph_term | diffusion_term, PairKernel::rates_cubic,
-                           PairKernel::rates_any, PairKernel::rates_single),
+  over_clusters(kernel_for(job, rate_term | xsph_term | diffusion_term,
+                           {PairKernel::rates_cubic, PairKernel::rates_cubic_single},
+                           {PairKernel::rates_any, PairKernel::rates_any_single}),
                 job, options.set);
 }
 
@@ -111,8 +117,9 @@ void pair_force(const ClusterList& list, const Packed& packed, const PairParamet
   }
   if (out.f_tensile != nullptr) job.terms |= tensile_term;
   if (out.f_correction != nullptr) job.terms |= force_correction_term;
-  over_clusters(kernel_for(job, force_term | viscous_term, PairKernel::force_cubic,
-                           PairKernel::force_any, PairKernel::force_single),
+  over_clusters(kernel_for(job, force_term | viscous_term,
+                           {PairKernel::force_cubic, PairKernel::force_cubic_single},
+                           {PairKernel::force_any, PairKernel::force_any_single}),
                 job, options.set);
 }
 

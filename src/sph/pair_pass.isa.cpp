@@ -281,19 +281,25 @@ constexpr double least_single = 1e-12;
 __attribute__((flatten, noinline)) void rates_cubic(const PairJob& job) {
   run<usual_rates, true, DoublePairs>(job, least_double);
 }
+__attribute__((flatten, noinline)) void rates_cubic_single(const PairJob& job) {
+  run<usual_rates, true, SinglePairs>(job, least_single);
+}
 __attribute__((flatten, noinline)) void rates_any(const PairJob& job) {
   run<all_rates, false, DoublePairs>(job, least_double);
 }
-__attribute__((flatten, noinline)) void rates_single(const PairJob& job) {
+__attribute__((flatten, noinline)) void rates_any_single(const PairJob& job) {
   run<all_rates, false, SinglePairs>(job, least_single);
 }
 __attribute__((flatten, noinline)) void force_cubic(const PairJob& job) {
   run<usual_force, true, DoublePairs>(job, least_double);
 }
+__attribute__((flatten, noinline)) void force_cubic_single(const PairJob& job) {
+  run<usual_force, true, SinglePairs>(job, least_single);
+}
 __attribute__((flatten, noinline)) void force_any(const PairJob& job) {
   run<all_force, false, DoublePairs>(job, least_double);
 }
-__attribute__((flatten, noinline)) void force_single(const PairJob& job) {
+__attribute__((flatten, noinline)) void force_any_single(const PairJob& job) {
   run<all_force, false, SinglePairs>(job, least_single);
 }
 __attribute__((flatten, noinline)) void fused(const PairJob& job) {
@@ -309,16 +315,20 @@ void pair_pass(PairKernel kernel, const PairJob& job) {
   switch (kernel) {
     case PairKernel::rates_cubic:
       return rates_cubic(job);
+    case PairKernel::rates_cubic_single:
+      return rates_cubic_single(job);
     case PairKernel::rates_any:
       return rates_any(job);
-    case PairKernel::rates_single:
-      return rates_single(job);
+    case PairKernel::rates_any_single:
+      return rates_any_single(job);
     case PairKernel::force_cubic:
       return force_cubic(job);
+    case PairKernel::force_cubic_single:
+      return force_cubic_single(job);
     case PairKernel::force_any:
       return force_any(job);
-    case PairKernel::force_single:
-      return force_single(job);
+    case PairKernel::force_any_single:
+      return force_any_single(job);
     case PairKernel::fused:
       return fused(job);
     case PairKernel::fused_single:
