@@ -28,23 +28,34 @@ void add_weight(Nodes& nodes, const Range& r, const Vec3& g) {
   });
 }
 
-/// Work of the weight of a share along the path of level n: sum m g . work_path [J].
+/// Sums over nodes: of m v(n+1/2), and of m a with a = f/m where forces move a node.
+struct Momenta {
+  Vec3 of_v = Vec3::Zero();
+  Vec3 of_a = Vec3::Zero();
+  Momenta operator+(const Momenta& other) const { return {of_v + other.of_v, of_a + other.of_a}; }
+};
+
+/// Work of the weight of a share along the path of level n: sum m g . work_path [J], with g taken
+/// out of the sum.
 Work work_of_weight(const Scene& scene, const Share& share, const Step& step) {
   const Nodes& nodes = scene.nodes;
-  const Work none = Work::Zero();
   const Range computed = scene.computed(share.nodes);
-  return parallel_sum(computed.size(), node_chunk, none, [&](Index a, Index b) {
-    Work work = none;
+  const auto sum = parallel_sum(computed.size(), node_chunk, Momenta{}, [&](Index a, Index b) {
+    Momenta part;
     for (Index i = computed.begin + a; i < computed.begin + b; ++i) {
       if (share.mixed &&
           scene.particle_part[static_cast<std::size_t>(i - scene.particles.begin)] != share.part) {
         continue;
       }
-      work += nodes.x[static_cast<std::size_t>(i)].w *
-              work_along(work_path(nodes, i, step), scene.gravity);
+      const auto k = static_cast<std::size_t>(i);
+      const double m = nodes.x[k].w;
+      part.of_v += m * xyz(nodes.v[k]);
+      part.of_a += m * nodes.v[k].w * xyz(nodes.f[k]);
     }
-    return work;
+    return part;
   });
+  const Vec3 old = sum.of_v - 0.5 * (step.dt_old + step.dt) * sum.of_a;
+  return {0.5 * step.dt_old * scene.gravity.dot(old), 0.5 * step.dt * scene.gravity.dot(sum.of_v)};
 }
 
 std::vector<Share> shares_of(const Scene& scene, const Model& model, Ledger& ledger) {
