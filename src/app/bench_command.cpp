@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "fe/shell.hpp"
 #include "fe/solid.hpp"
+#include "fe/truss.hpp"
 #include "search/cluster_list.hpp"
 #include "search/spatial_sort.hpp"
 #include "sph/pair_pass.hpp"
@@ -158,6 +159,33 @@ BenchResult bench_solid(int n, const char* formulation = "one_point") {
       [](auto& block, Nodes& nodes, double dt) { solid_pass(block, nodes, dt); });
 }
 
+/// A cable of n elements, moving: the pass over its elements, or whole steps of a run.
+BenchResult bench_cable(int n, bool whole_step) {
+  const auto simulation = moving_elements(
+      fmt::format("{{line: {{cable: {{EA: 1 MN, mass_per_length: 1, prestrain: 0.01}}, shape: "
+                  "{{line: {{from: [0, 0, 0], to: [{0} m, 0, 0], elements: {0}}}}}}}}}",
+                  n));
+  TrussBlock& block = simulation->scene.store.get<TrussBlocks>().list.front();
+  const double dt = simulation->models.list.front().step.dt;
+  constexpr int times = 1000;
+  BenchResult r;
+  r.size = n;
+  r.median_seconds =
+      median_seconds(9,
+                     [&] {
+                       for (int k = 0; k < times; ++k) {
+                         whole_step
+                             ? advance(simulation->models)
+                             : static_cast<void>(truss_pass(block, simulation->scene.nodes, dt));
+                       }
+                     }) /
+      times;
+  r.rate = n / r.median_seconds;
+  r.unit = "element-steps/s";
+  r.bytes_per_item = 8.0 * static_cast<double>(block.state.size()) / n;
+  return r;
+}
+
 std::vector<Benchmark> all_benchmarks() {
   return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
           {"fe.shell.pass.400k", [] { return bench_shell(632); }},
@@ -166,6 +194,8 @@ std::vector<Benchmark> all_benchmarks() {
           {"fe.solid.pass.50k", [] { return bench_solid(37); }},
           {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
           {"fe.solid.pass.400k", [] { return bench_solid(74); }},
+          {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
+          {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},
           {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
           {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
           {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},

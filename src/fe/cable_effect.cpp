@@ -116,21 +116,20 @@ TrussBlock read_block(const Keys& cable) {
 
 /// What a pass takes from the level before is tracked; the force is also shown.
 void track(Scene& scene, TrussBlock& block) {
-  const auto cells = [&](const char* name, const char* unit, const char* vtk, Array<double>& a) {
-    Field field =
-        plain_field(block.name + "." + name, unit, vtk, Over::cells, a, 1, GhostRule::none);
-    field.part = block.part;
+  const auto cells = [&](const char* name, const char* unit, const char* vtk, TrussValue which) {
+    Field field = element_field(block.name + "." + name, unit, block.part, block.state,
+                                truss_values, which, 1, [&block] { return block.n_elements(); });
+    field.vtk = vtk;
     field.owner = "cable";
-    field.resize = nullptr;
     scene.fields.push_back(std::move(field));
   };
-  cells("length", "m", "", block.length);
-  cells("force", "N", "AxialForce", block.force);
-  cells("energy", "J", "", block.energy);
+  cells("length", "m", "", truss_length);
+  cells("force", "N", "AxialForce", truss_force);
+  cells("energy", "J", "", truss_energy);
   if (block.damping_ratio > 0 || block.damping_time > 0) {
-    cells("damping", "N", "", block.damping);
+    cells("damping", "N", "", truss_damping);
   }
-  if (block.strength > 0) cells("broken", "", "Broken", block.broken);
+  if (block.strength > 0) cells("broken", "", "Broken", truss_broken);
 }
 
 /// The largest force and the number of broken elements, for histories.
@@ -138,13 +137,15 @@ void add_measures(Scene& scene, const TrussBlock& block) {
   scene.measures.push_back(
       {"cable." + block.name + ".tension", "N", {"value"}, [&block](double* value) {
          *value = 0;
-         for (const double F : block.force) *value = std::max(*value, F);
+         for (Index e = 0; e < block.n_elements(); ++e) {
+           *value = std::max(*value, block.value(e, truss_force));
+         }
        }});
   if (!(block.strength > 0)) return;
   scene.measures.push_back(
       {"cable." + block.name + ".broken", "", {"value"}, [&block](double* value) {
          *value = 0;
-         for (const double b : block.broken) *value += b;
+         for (Index e = 0; e < block.n_elements(); ++e) *value += block.value(e, truss_broken);
        }});
 }
 

@@ -8,19 +8,13 @@
 
 #include "base/array.hpp"
 #include "fe/colouring.hpp"
+#include "fe/element_blocks.hpp"
 #include "fe/element_part.hpp"
+#include "fe/truss_kernel.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 
 namespace gannet {
-
-/// Sums over the elements of one chunk in one pass.
-struct TrussSums {
-  ElementWork work;
-  double shortest = 0;  ///< smallest stable step [s]
-  Index element = -1;   ///< that it belongs to
-  Index n_broken = 0;   ///< elements that have broken so far
-};
 
 /// The elements of one part: element k joins ends[2 k] and ends[2 k + 1].
 struct TrussBlock {
@@ -35,18 +29,17 @@ struct TrussBlock {
   double strength = 0;        ///< force at which an element breaks [N]; 0: never
   int part = -1;              ///< number of the part in the scene; -1 where there is none
   Array<Index> ends;
-  Array<double> l0;       ///< unstretched length of each element [m], > 0
-  Array<double> length;   ///< at level n [m]
-  Array<double> force;    ///< axial force at level n, damping included, tension positive [N]
-  Array<double> damping;  ///< share of damping in it [N]
-  Array<double> energy;   ///< strain energy at level n [J]
-  Array<double> broken;   ///< 1 where an element has broken, else 0
+  Array<Index> corners;  ///< the same by blocks (fe/element_blocks.hpp)
+  Array<double> state;   ///< fe/truss_kernel.hpp
   ChunkColours colouring;
   std::vector<TrussSums> sums;  ///< one a chunk, of the last pass
   double shortest = 0;          ///< smallest stable step of the last pass [s]
   Index limiting = -1;          ///< the element it belongs to
   Index n_broken = 0;           ///< so far
-  [[nodiscard]] Index n_elements() const { return static_cast<Index>(l0.size()); }
+  [[nodiscard]] Index n_elements() const { return static_cast<Index>(ends.size() / 2); }
+  [[nodiscard]] double value(Index e, TrussValue k) const {
+    return state[static_cast<std::size_t>((e / lanes * truss_values + k) * lanes + e % lanes)];
+  }
 };
 
 /// All trusses of a scene (scene.store.get<TrussBlocks>()); addresses never change.
@@ -56,15 +49,6 @@ struct TrussBlocks {
 
 /// Elements per chunk of the coloured passes.
 inline constexpr Index truss_chunk = 512;
-
-/// Elastic axial force [N] at length l [m].
-///   F = EA (l - l0)/l0 (engineering strain, force per undeformed section), 0 where slack
-/// Needs l0 > 0. Throws nothing.
-double truss_force(const TrussBlock& block, double l, double l0);
-
-/// Strain energy [J] at length l [m]: the work of truss_force() from l0.
-///   W = EA (l - l0)^2 / (2 l0), 0 where slack
-double truss_energy(const TrussBlock& block, double l, double l0);
 
 /// Takes the lengths between the nodes as they stand for (1 + prestrain) l0 and sets the arrays up.
 /// Throws std::invalid_argument that names the element where two nodes coincide.
@@ -77,14 +61,14 @@ void add_truss_masses(const TrussBlock& block, Nodes& nodes);
 /// t(n) - t(n-1) [s]. Chunks of one colour run at the same time: the same bits for any number of
 /// threads.
 ///   F = EA (l - l0)/l0 + EA/l0 (beta + zeta l0/c) (l(n) - l(n-1))/dt_old,  c^2 = EA/mu,
-/// a cable never below 0, and without damping where it is slack. The rate of l is that of the
-/// lengths themselves, so that no rigid motion is damped. Internal energy is the strain energy, a
-/// state function; damping takes (F_d(n-1) + F_d(n))/2 (l(n) - l(n-1)). An element with |F| at the
-/// strength or above carries nothing from this level on: its strain energy, and what its old force
-/// did over the step, leave as "eroded".
-/// The stable step of an element, from its own lumped mass m = mu l0/2: omega^2 = 2 K/m with
-/// K = EA/l0 along it, and F/l across it where that is larger; dt = (2/omega) (sqrt(1 + xi^2) - xi)
-/// with xi = (beta + zeta l0/c) omega/2, which is l0/c in the usual case.
+/// (engineering strain, force per undeformed section), a cable never below 0, and without damping
+/// where it is slack. The rate of l is that of the lengths themselves, so that no rigid motion is
+/// damped. Internal energy is the strain energy EA (l - l0)^2/(2 l0), a state function; damping
+/// takes (F_d(n-1) + F_d(n))/2 (l(n) - l(n-1)). An element with |F| at the strength or above
+/// carries nothing from this level on: its strain energy, and what its old force did over the step,
+/// leave as "eroded". The stable step of an element, from its own lumped mass m = mu l0/2: omega^2
+/// = 2 K/m with K = EA/l0 along it, and F/l across it where that is larger; dt = (2/omega) (sqrt(1
+/// + xi^2) - xi) with xi = (beta + zeta l0/c) omega/2, which is l0/c in the usual case.
 ElementWork truss_pass(TrussBlock& block, Nodes& nodes, double dt_old);
 
 /// Adds the force operation with its vote and the ledger entry "internal" of a block that belongs

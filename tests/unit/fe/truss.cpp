@@ -37,7 +37,7 @@ TEST_CASE("truss: force, energy and stable step by hand", "[fe]") {
   scene.nodes.x[1] = {0.066, 0.088, 0, scene.nodes.x[1].w};  // length 0.11, direction 3-4-5
   const double energy = truss_pass(block, scene.nodes, 0).internal;
   // F = 2e6 0.01/0.1 = 2e5, W = F 0.01/2 = 1000.
-  CHECK(block.force[0] == Approx(2e5).epsilon(1e-13));
+  CHECK(block.value(0, truss_force) == Approx(2e5).epsilon(1e-13));
   CHECK(energy == Approx(1000).epsilon(1e-13));
   CHECK(scene.nodes.f[0].x == Approx(1.2e5).epsilon(1e-13));
   CHECK(scene.nodes.f[1].y == Approx(-1.6e5).epsilon(1e-13));
@@ -51,13 +51,13 @@ TEST_CASE("truss: a cable does not push", "[fe]") {
   chain(scene, block, 2, 0.1);
   scene.nodes.x[1].x = 0.09;
   const double energy = truss_pass(block, scene.nodes, 0).internal;
-  CHECK(block.force[0] == 0);
-  CHECK(block.energy[0] == 0);
-  CHECK(block.force[1] == Approx(2e5).epsilon(1e-12));
+  CHECK(block.value(0, truss_force) == 0);
+  CHECK(block.value(0, truss_energy) == 0);
+  CHECK(block.value(1, truss_force) == Approx(2e5).epsilon(1e-12));
   CHECK(energy == Approx(1000).epsilon(1e-12));
   block.tension_only = false;
   truss_pass(block, scene.nodes, 0);
-  CHECK(block.force[0] == Approx(-2e5).epsilon(1e-12));
+  CHECK(block.value(0, truss_force) == Approx(-2e5).epsilon(1e-12));
 }
 
 TEST_CASE("truss: a swinging chain keeps its energy", "[fe]") {
@@ -104,13 +104,13 @@ TEST_CASE("truss: prestrain, damping and its stable step by hand", "[fe]") {
                    .damping_ratio = 0.2,
                    .damping_time = 1e-5};
   chain(scene, block, 1, 0.101);
-  CHECK(block.l0[0] == Approx(0.1).epsilon(1e-14));
+  CHECK(block.value(0, truss_l0) == Approx(0.1).epsilon(1e-14));
   truss_pass(block, scene.nodes, 0);
-  CHECK(block.force[0] == Approx(2e4).epsilon(1e-12));
+  CHECK(block.value(0, truss_force) == Approx(2e4).epsilon(1e-12));
   // beta + zeta l0/c = 1e-5 + 0.2 0.1/2000 = 2e-5 s; the rod grows by 1 mm in 1 ms.
   scene.nodes.x[1].x += 1e-3;
   const ElementWork work = truss_pass(block, scene.nodes, 1e-3);
-  CHECK(block.force[0] == Approx(4e4 + 2e7 * 2e-5 * 1).epsilon(1e-12));
+  CHECK(block.value(0, truss_force) == Approx(4e4 + 2e7 * 2e-5 * 1).epsilon(1e-12));
   CHECK(work.internal == Approx(0.5 * 2e7 * (4e-6 - 1e-6)).epsilon(1e-9));
   CHECK(work.damping == Approx(0.5 * 400 * 1e-3).epsilon(1e-9));
   // omega = 2 c/l0 = 4e4, xi = 2e-5 4e4/2 = 0.4.
@@ -129,7 +129,7 @@ TEST_CASE("truss: an element that breaks carries nothing and hands its energy ov
   for (Line& f : scene.nodes.f) f = {};
   work = truss_pass(block, scene.nodes, 1e-5);
   CHECK(block.n_broken == 1);
-  CHECK(block.broken[1] == 1);
+  CHECK(block.value(1, truss_broken) == 1);
   CHECK(work.internal == Approx(-250).epsilon(1e-10));
   CHECK(work.eroded == Approx(250 + 0.5 * 1e5 * 0.003).epsilon(1e-10));
   CHECK(scene.nodes.f[2].x == 0);
