@@ -41,8 +41,8 @@ std::vector<Key> cable_keys() {
            .fallback = "0",
            .limits = {.lowest = -1, .highest = 1, .lowest_open = true, .highest_open = true}},
           {.name = "damping_ratio",
-           .text = "internal damping, as a ratio of the highest mode of each element",
-           .fallback = "0",
+           .text = "internal damping, as a ratio of the highest mode of each element (0.05 where "
+                   "tension_only: a line that snaps taut needs it; else 0)",
            .limits = between(0, 2)},
           {.name = "damping_time",
            .unit = dim::time,
@@ -107,7 +107,7 @@ TrussBlock read_block(const Keys& cable) {
   TrussBlock block;
   block.tension_only = cable.flag("tension_only");
   block.prestrain = cable.number("prestrain");
-  block.damping_ratio = cable.number("damping_ratio");
+  block.damping_ratio = cable.number_or("damping_ratio", block.tension_only ? 0.05 : 0.0);
   block.damping_time = cable.number("damping_time");
   block.strength = cable.number_or("strength", 0);
   block.dt_factor = cable.number("dt_factor");
