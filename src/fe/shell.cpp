@@ -18,7 +18,11 @@ namespace {
 ShellConstants make_constants(const ElasticPlastic& material, const ShellSection& section) {
   ShellConstants c;
   c.law = plane_stress_law(material);
-  c.plastic = material.plastic();
+  c.point_law = material.point_law();
+  if (material.general()) {
+    c.j2 = j2_law(material);
+    c.history = history_of(c.j2, 3);
+  }
   c.thickness_changes = section.thickness_changes;
   c.viscous_hourglass = section.hourglass == HourglassForm::viscous;
   c.n_points = section.points;
@@ -117,7 +121,8 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
   block.material = material;
   block.section = section;
   block.constants = make_constants(material, section);
-  block.layout = {section.points, material.plastic() ? 4 : 3, section.warping};
+  block.layout = {section.points, 3 + (material.plastic() ? block.constants.history.n : 0),
+                  section.warping};
   block.n_elements = static_cast<Index>(connectivity.size() / 4);
   block.corners = corners_by_block(connectivity, 4);
   fill_state(block, x);
@@ -175,6 +180,7 @@ ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) 
     work.internal += s.internal;
     work.plastic += s.plastic;
     work.hourglass += s.hourglass;
+    work.eroded += s.eroded;
     if (s.omega2 <= block.omega2) continue;
     block.omega2 = s.omega2;
     block.limiting = s.element;
@@ -230,17 +236,39 @@ void show_stress(ShellBlock& block, std::span<const Line> x) {
   });
 }
 
-void show_plastic_strain(ShellBlock& block) {
-  assert(block.material.plastic());
-  block.plastic_shown.assign(static_cast<std::size_t>(block.n_elements), 0);
+namespace {
+
+/// The largest of number j of the history of an element's points.
+void show_largest(const ShellBlock& block, int j, Array<double>& shown) {
+  shown.assign(static_cast<std::size_t>(block.n_elements), 0);
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
-      double& eps_p = block.plastic_shown[static_cast<std::size_t>(e)];
+      double& largest = shown[static_cast<std::size_t>(e)];
       for (int k = 0; k < block.layout.n_points; ++k) {
-        eps_p = std::max(eps_p, block.value(e, 4 * k + 3));
+        largest = std::max(largest, block.value(e, block.layout.per_point * k + 3 + j));
       }
     }
   });
+}
+
+}  // namespace
+
+void show_plastic_strain(ShellBlock& block) {
+  assert(block.material.plastic());
+  show_largest(block, 0, block.plastic_shown);
+}
+
+void show_damage(ShellBlock& block) {
+  assert(block.constants.history.damage >= 0);
+  show_largest(block, block.constants.history.damage, block.damage_shown);
+}
+
+Index n_eroded(const ShellBlock& block) {
+  Index n = 0;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    n += block.value(e, block.layout.thickness()) == 0 ? 1 : 0;
+  }
+  return n;
 }
 
 PlaneStress<double> stress_at(const ShellBlock& block, Index e, int k) {

@@ -48,6 +48,7 @@ struct ShellBlock {
   Index limiting = -1;          ///< the element it belongs to
   Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p over the points [-]
+  Array<double> damage_shown;   ///< largest damage over the points [-]
   [[nodiscard]] Index n_blocks() const { return blocks_for(n_elements); }
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
@@ -98,6 +99,12 @@ void show_stress(ShellBlock& block, std::span<const Line> x);
 
 /// Fills plastic_shown from the state. Needs a plastic material.
 void show_plastic_strain(ShellBlock& block);
+
+/// Fills damage_shown from the state. Needs a material that fails.
+void show_damage(ShellBlock& block);
+
+/// How many elements have left the block with their last point failed.
+Index n_eroded(const ShellBlock& block);
 
 /// Stress of point k (0 is the lowest) of element e in the frame of the element: xx, yy, xy [Pa].
 PlaneStress<double> stress_at(const ShellBlock& block, Index e, int k);

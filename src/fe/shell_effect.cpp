@@ -130,6 +130,17 @@ void track(Scene& scene, ShellBlock& block) {
   eps_p.prepare = [&block] { show_plastic_strain(block); };
   eps_p.owner = "shell";
   track_shown(scene, block.part, std::move(eps_p));
+  if (!block.material.failure.given()) return;
+  block.damage_shown.assign(n, 0);
+  Field damage = plain_field(block.name + ".damage", "", "Damage", Over::cells, block.damage_shown,
+                             1, GhostRule::none);
+  damage.prepare = [&block] { show_damage(block); };
+  damage.owner = "shell";
+  track_shown(scene, block.part, std::move(damage));
+  scene.measures.push_back(
+      {"shell." + block.name + ".eroded", "", {"value"}, [&block](double* n_out) {
+         *n_out = n_eroded(block);
+       }});
 }
 
 void state(const Keys& root, Scene& scene) {
@@ -180,7 +191,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .reads = {"x", "v", "omega"},
                      .writes = {"f", "torque"},
                      .plastic = block.material.plastic(),
-                     .hourglass = true};
+                     .hourglass = true,
+                     .eroded = block.material.failure.given()};
     part.pass = [&scene, &block](const Step& step) {
       return shell_pass(block, scene.nodes, step.dt_old);
     };

@@ -209,6 +209,7 @@ struct ShellLaneSums {
   Vec8 internal = Vec8(0.0);
   Vec8 plastic = Vec8(0.0);
   Vec8 hourglass = Vec8(0.0);
+  Vec8 eroded = Vec8(0.0);
   Vec8 omega2 = Vec8(0.0);
   Vec8 block = Vec8(-1.0);
 };

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "material/plane_stress.hpp"
+#include "material/j2.hpp"
 
 namespace gannet {
 
@@ -13,7 +13,9 @@ inline constexpr int max_shell_points = 7;
 /// What the elements of one block have in common.
 struct ShellConstants {
   PlaneStressLaw law;
-  bool plastic = false;
+  PointLaw point_law = PointLaw::elastic;
+  J2Law j2;           ///< where point_law is general
+  J2History history;  ///< of j2
   bool thickness_changes = false;
   bool viscous_hourglass = false;
   int n_points = 5;                      ///< through the thickness
@@ -34,7 +36,7 @@ struct ShellConstants {
 /// state[(block * n_values + k) * 8 + l].
 struct ShellLayout {
   int n_points = 5;
-  int per_point = 4;        ///< sigma_xx, sigma_yy, sigma_xy [Pa], eps_p [-] (3 where elastic)
+  int per_point = 4;  ///< sigma_xx, sigma_yy, sigma_xy [Pa] and, but where elastic, the history
   bool has_fibres = false;  ///< the warping correction, see shell_element.hpp
   [[nodiscard]] int shear() const { return n_points * per_point; }    ///< sigma_xz, sigma_yz [Pa]
   [[nodiscard]] int hourglass() const { return shear() + 2; }         ///< Q1..Q3 [N], Q4, Q5 [N m]
@@ -64,6 +66,7 @@ struct ShellSums {
   double internal = 0;        ///< [J], trapezoid of stress over the strain increment
   double plastic = 0;         ///< [J], part of it that plastic flow took
   double hourglass = 0;       ///< [J]
+  double eroded = 0;          ///< [J], left with points that failed
   double omega2 = 0;          ///< largest bound of an element's squared frequency [1/s^2]
   std::int32_t element = -1;  ///< whose it is: 8 block + lane
 };

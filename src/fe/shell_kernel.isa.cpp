@@ -1,6 +1,7 @@
 #include "fe/shell_kernel.hpp"
 
 #include "fe/shell_element.hpp"
+#include "fe/shell_general.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -42,7 +43,7 @@ GANNET_INLINE Vec8 grown(Vec8 t, Vec8 strain) {
 }
 
 /// One block of eight elements.
-template <bool plastic>
+template <PointLaw law>
 GANNET_INLINE void shell_block(const ShellPass& pass, std::int32_t block, ShellLaneSums& sums) {
   const ShellConstants& c = *pass.constants;
   const ShellLayout& layout = pass.layout;
@@ -61,16 +62,32 @@ GANNET_INLINE void shell_block(const ShellPass& pass, std::int32_t block, ShellL
   double* fibres = layout.has_fibres ? state + 8 * layout.fibres() : nullptr;
   if (fibres != nullptr) follow_fibres(half, v, w, fibres, Vec8(pass.dt));
   const ShellIncrements d = shell_increments(half, v, w, Vec8(pass.dt));
-  const Vec8 t = Vec8::load(state + 8 * layout.thickness());
+  Vec8 t = Vec8::load(state + 8 * layout.thickness());
   ShellResultants r;
   HourglassStiffness K;
   Vec8 work;
   Vec8 plastic_work;
-  const Vec8 growth = shell_stress<plastic>(c, layout, state, d, t, r, work, plastic_work);
+  Vec8 growth;
+  GeneralStress general;
+  if constexpr (law == PointLaw::general) {
+    general_shell_stress(c, layout, pass.dt, state, d, t, r, general);
+    work = general.work.internal;
+    plastic_work = general.work.plastic;
+    growth = general.growth;
+    sums.eroded += general.work.eroded * half.area;
+  } else {
+    growth = shell_stress<law == PointLaw::linear_hardening>(c, layout, state, d, t, r, work,
+                                                             plastic_work);
+  }
   shell_shear(c, state + 8 * layout.shear(), d, t, r, work);
-  sums.hourglass += shell_hourglass(c, half, state + 8 * layout.hourglass(), d, t, pass.dt, r, K);
+  Vec8 hourglass_work =
+      shell_hourglass(c, half, state + 8 * layout.hourglass(), d, t, pass.dt, r, K);
+  if constexpr (law == PointLaw::general) {
+    t = take_out_failed(layout, state, d, general.least_damage, t, r, work, hourglass_work);
+  }
+  sums.hourglass += hourglass_work;
   sums.internal += work * half.area;
-  if constexpr (plastic) sums.plastic += plastic_work * half.area;
+  if constexpr (law != PointLaw::elastic) sums.plastic += plastic_work * half.area;
   if (c.thickness_changes) grown(t, growth).store(state + 8 * layout.thickness());
 
   const ShellGeometry now = shell_geometry(x);
@@ -88,17 +105,18 @@ GANNET_INLINE void shell_block(const ShellPass& pass, std::int32_t block, ShellL
   sums.block = select(larger, Vec8(static_cast<double>(block)), sums.block);
 }
 
-template <bool plastic>
+template <PointLaw law>
 GANNET_INLINE void shell_blocks(const ShellPass& pass, std::int32_t begin, std::int32_t end,
                                 ShellSums& out) {
   ShellLaneSums sums;
   for (std::int32_t block = begin; block < end; ++block) {
     if (block + blocks_ahead < end) call_for(pass, block + blocks_ahead);
-    shell_block<plastic>(pass, block, sums);
+    shell_block<law>(pass, block, sums);
   }
   out.internal = sum(sums.internal);
   out.plastic = sum(sums.plastic);
   out.hourglass = sum(sums.hourglass);
+  out.eroded = sum(sums.eroded);
   alignas(64) double omega2[8];
   alignas(64) double index[8];
   sums.omega2.store(omega2);
@@ -116,10 +134,13 @@ GANNET_INLINE void shell_blocks(const ShellPass& pass, std::int32_t begin, std::
 
 __attribute__((flatten)) void shell_force(const ShellPass& pass, std::int32_t begin,
                                           std::int32_t end, ShellSums& sums) {
-  if (pass.constants->plastic) {
-    shell_blocks<true>(pass, begin, end, sums);
+  const PointLaw law = pass.constants->point_law;
+  if (law == PointLaw::linear_hardening) {
+    shell_blocks<PointLaw::linear_hardening>(pass, begin, end, sums);
+  } else if (law == PointLaw::general) {
+    shell_blocks<PointLaw::general>(pass, begin, end, sums);
   } else {
-    shell_blocks<false>(pass, begin, end, sums);
+    shell_blocks<PointLaw::elastic>(pass, begin, end, sums);
   }
 }
 

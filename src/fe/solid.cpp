@@ -14,7 +14,11 @@ namespace {
 SolidConstants make_constants(const ElasticPlastic& material, const SolidSection& section) {
   SolidConstants c;
   c.law = solid_law(material);
-  c.plastic = material.plastic();
+  c.point_law = material.point_law();
+  if (material.general()) {
+    c.j2 = j2_law(material);
+    c.history = history_of(c.j2, 6);
+  }
   c.hourglass = section.hourglass_coefficient;
   c.rho0 = material.rho;
   c.smallest_ratio = section.smallest_ratio;
@@ -53,8 +57,8 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.section = section;
   block.constants = make_constants(material, section);
   assert(section.points == 1 || section.points == 8);
-  block.layout = {material.plastic(), section.points == 1 && !section.viscous_hourglass,
-                  section.points};
+  block.layout = {material.plastic() ? block.constants.history.n : 0,
+                  section.points == 1 && !section.viscous_hourglass, section.points};
   block.n_elements = static_cast<Index>(connectivity.size() / 8);
   block.corners = corners_by_block(connectivity, 8);
   block.state.assign(
@@ -108,6 +112,7 @@ ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) 
     work.plastic += s.plastic;
     work.hourglass += s.hourglass;
     work.viscous += s.viscous;
+    work.eroded += s.eroded;
     if (s.omega2 > block.omega2) {
       block.omega2 = s.omega2;
       block.limiting = s.element;
@@ -138,6 +143,14 @@ Index erode_collapsed(SolidBlock& block, std::span<const Line> x) {
   return n;
 }
 
+Index n_eroded(const SolidBlock& block) {
+  Index n = 0;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    n += block.value(e, block.layout.inverse_volume()) == 0 ? 1 : 0;
+  }
+  return n;
+}
+
 Symmetric<double> stress_at(const SolidBlock& block, Index e, int point) {
   const auto at = [&](int k) { return block.value(e, block.layout.stress(point) + k); };
   return {at(0), at(1), at(2), at(3), at(4), at(5)};
@@ -146,7 +159,9 @@ Symmetric<double> stress_at(const SolidBlock& block, Index e, int point) {
 void show_state(SolidBlock& block) {
   const auto n = static_cast<std::size_t>(block.n_elements);
   block.stress_shown.assign(6 * n, 0);
-  block.plastic_shown.assign(block.layout.plastic ? n : 0, 0);
+  const int damage = block.constants.history.damage;
+  block.plastic_shown.assign(block.layout.plastic() ? n : 0, 0);
+  block.damage_shown.assign(damage >= 0 ? n : 0, 0);
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
       for (int point = 0; point < block.layout.n_points; ++point) {
@@ -156,9 +171,13 @@ void show_state(SolidBlock& block) {
           block.stress_shown[6 * static_cast<std::size_t>(e) + k] +=
               part[k] / block.layout.n_points;
         }
-        if (!block.layout.plastic) continue;
+        if (!block.layout.plastic()) continue;
+        const int first = block.layout.plastic_strain(point);
         double& eps_p = block.plastic_shown[static_cast<std::size_t>(e)];
-        eps_p = std::max(eps_p, block.value(e, block.layout.plastic_strain(point)));
+        eps_p = std::max(eps_p, block.value(e, first));
+        if (damage < 0) continue;
+        double& worst = block.damage_shown[static_cast<std::size_t>(e)];
+        worst = std::max(worst, block.value(e, first + damage));
       }
     }
   });

@@ -42,6 +42,7 @@ struct SolidBlock {
   std::vector<SolidSums> sums;  ///< one a chunk, of the last pass
   Array<double> stress_shown;   ///< 6 an element, mean of its points, by show_state() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p of its points [-]
+  Array<double> damage_shown;   ///< largest damage of its points [-]
   double omega2 = 0;            ///< of the last pass [1/s^2]
   Index limiting = -1;          ///< the element it belongs to
   double volume_ratio = 1;      ///< smallest V/V0 of the last pass
@@ -92,10 +93,14 @@ double stable_step(const SolidBlock& block);
 /// where it was counted. Returns how many. Throws nothing.
 Index erode_collapsed(SolidBlock& block, std::span<const Line> x);
 
+/// How many elements have left the block, collapsed or with their last point failed.
+Index n_eroded(const SolidBlock& block);
+
 /// Stress of a point of element e: xx, yy, zz, xy, yz, zx [Pa].
 Symmetric<double> stress_at(const SolidBlock& block, Index e, int point = 0);
 
-/// Fills stress_shown and, where the material yields, plastic_shown from the state.
+/// Fills stress_shown and, where the material yields or fails, plastic_shown and damage_shown from
+/// the state.
 void show_state(SolidBlock& block);
 
 }  // namespace gannet

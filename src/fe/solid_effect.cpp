@@ -140,9 +140,18 @@ void track(Scene& scene, SolidBlock& block) {
   };
   show_state(block);
   show(".stress", "Pa", "Stress", block.stress_shown, 6);
-  if (block.layout.plastic) {
+  if (block.layout.plastic()) {
     show(".plastic_strain", "", "PlasticStrain", block.plastic_shown, 1);
   }
+  if (!block.damage_shown.empty()) show(".damage", "", "Damage", block.damage_shown, 1);
+}
+
+/// The number of elements that have left, for histories.
+void add_measures(Scene& scene, const SolidBlock& block) {
+  if (!block.erodes && !block.material.failure.given()) return;
+  scene.measures.push_back({"solid." + block.name + ".eroded", "", {"value"}, [&block](double* n) {
+                              *n = n_eroded(block);
+                            }});
 }
 
 void state(const Keys& root, Scene& scene) {
@@ -166,6 +175,7 @@ void state(const Keys& root, Scene& scene) {
     block.part = number;
     add_solid_masses(block, scene.nodes);
     track(scene, block);
+    add_measures(scene, block);
   }
 }
 
@@ -189,7 +199,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .part = block.part,
                      .plastic = block.material.plastic(),
                      .hourglass = block.layout.n_points == 1,
-                     .viscous = true};
+                     .viscous = true,
+                     .eroded = block.material.failure.given()};
     part.pass = [&scene, &block](const Step& step) {
       const ElementWork work = solid_pass(block, scene.nodes, step.dt_old);
       if (block.volume_ratio <= block.section.smallest_ratio) {

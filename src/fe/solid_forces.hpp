@@ -2,6 +2,7 @@
 // bound of their frequency. The equations stand in solid_element.hpp. For *.isa.cpp files only.
 #pragma once
 
+#include "base/simd_math.hpp"
 #include "fe/solid_element.hpp"
 
 namespace gannet::GANNET_ISA_NS {
@@ -20,27 +21,65 @@ GANNET_INLINE void store_stress(const Symmetric<Vec8>& s, double* p) {
   s.zx.store(p + 40);
 }
 
-/// Stress of a point from n-1 to n: turned by R, elastic answer to e, returned to the yield
-/// surface. state: its six stresses, and its plastic strain behind them. Gives the work per volume,
-/// (sigma(n-1) + sigma(n))/2 : e [J/m^3].
-template <bool plastic>
-GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double* state,
-                                           const Symmetric<Vec8>& e, const Tensor& R, Vec8& work,
-                                           Vec8& plastic_work) {
+GANNET_INLINE Symmetric<Vec8> scaled(const Symmetric<Vec8>& s, Vec8 a) {
+  return {s.xx * a, s.yy * a, s.zz * a, s.xy * a, s.yz * a, s.zx * a};
+}
+
+/// Stress of a point from n-1 to n by the law of j2.hpp, as solid_stress(). dt: of the step [s].
+/// One function for all formulations: it is long, and called where a step costs more anyway.
+__attribute__((noinline)) inline void general_stress(const SolidConstants& c, double dt,
+                                                     double* state, const Symmetric<Vec8>& e,
+                                                     const Tensor& R, Symmetric<Vec8>& sigma,
+                                                     J2Work<Vec8>& work) {
+  const J2History& h = c.history;
+  double* history = state + 48;
+  const auto optional = [&](int k) { return k < 0 ? Vec8(0.0) : Vec8::load(history + 8 * k); };
+  J2State<Vec8> point{Vec8::load(history), optional(h.temperature), optional(h.damage)};
+  Symmetric<Vec8> alpha{};
+  if (h.back_stress >= 0) alpha = rotated(R, load_stress(history + 8 * h.back_stress));
   const Symmetric<Vec8> old = load_stress(state);
-  Symmetric<Vec8> sigma = rotated(R, old);
-  add_elastic(c.law, e, sigma);
-  plastic_work = Vec8(0.0);
-  if constexpr (plastic) {
+  const Symmetric<Vec8> half = scaled(e, Vec8(0.5));
+  Symmetric<Vec8> turned = old;
+  add_elastic(c.law, half, turned);
+  turned = rotated(R, turned);
+  add_elastic(c.law, scaled(half, Vec8(-1.0)), turned);
+  work = j2_step(c.j2, old, turned, e, Vec8(dt > 0 ? 1 / dt : 0.0), alpha, point, sigma);
+  store_stress(sigma, state);
+  point.eps_p.store(history);
+  if (h.back_stress >= 0) store_stress(alpha, history + 8 * h.back_stress);
+  if (h.temperature >= 0) point.rise.store(history + 8 * h.temperature);
+  if (h.damage >= 0) point.damage.store(history + 8 * h.damage);
+}
+
+/// Stress of a point from n-1 to n: half of the elastic answer to e, turned by R, the other half
+/// (order 2, and in elasticity the work below is the change of the elastic energy exactly),
+/// returned to the yield surface. state: its six stresses, and its history behind them. Gives the
+/// work per volume, (sigma(n-1) + sigma(n))/2 : e [J/m^3].
+template <PointLaw law>
+GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double dt, double* state,
+                                           const Symmetric<Vec8>& e, const Tensor& R,
+                                           J2Work<Vec8>& work) {
+  if constexpr (law == PointLaw::general) {
+    Symmetric<Vec8> sigma;
+    general_stress(c, dt, state, e, R, sigma, work);
+    return sigma;
+  }
+  const Symmetric<Vec8> old = load_stress(state);
+  const Symmetric<Vec8> half = scaled(e, Vec8(0.5));
+  Symmetric<Vec8> sigma = old;
+  add_elastic(c.law, half, sigma);
+  sigma = rotated(R, sigma);
+  add_elastic(c.law, half, sigma);
+  if constexpr (law == PointLaw::linear_hardening) {
     double* strain = state + 48;
     const Vec8 eps_p = Vec8::load(strain);
     const Vec8 Y = Vec8(c.law.yield) + Vec8(c.law.hardening) * eps_p;
     const Vec8 flow = return_to_yield(c.law, Y, sigma);
-    plastic_work = flow * (Y + Vec8(0.5 * c.law.hardening) * flow);
+    work.plastic = flow * (Y + Vec8(0.5 * c.law.hardening) * flow);
     (eps_p + flow).store(strain);
   }
   store_stress(sigma, state);
-  work = Vec8(0.5) * (contraction(old, e) + contraction(sigma, e));
+  work.internal = Vec8(0.5) * (contraction(old, e) + contraction(sigma, e));
   return sigma;
 }
 
@@ -62,15 +101,17 @@ GANNET_INLINE BulkViscosity bulk_viscosity(const SolidConstants& c, Vec8 trace_e
   return {rho * length * rate * (speed + linear), zeta};
 }
 
-/// Resists the hourglass patterns by stiffness: Q to n in `state`, returned in Q. Returns the work
-/// [J].
+/// Resists the hourglass patterns by stiffness: Q to n in `state`, returned in Q, through keep(),
+/// which is 0 for elements that leave. Returns the work [J].
+template <class Keep>
 GANNET_INLINE Vec8 hourglass_stiffness(double* state, const Vec8x3 q[4], const Tensor& R, Vec8 k_h,
-                                       Vec8x3 Q[4]) {
+                                       Keep keep, Vec8x3 Q[4]) {
   Vec8 twice_work(0.0);
   for (int k = 0; k < 4; ++k) {
     double* p = state + 24 * k;
     const Vec8x3 old{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
     Q[k] = times(R, old) + scaled(q[k], k_h);
+    Q[k] = {keep(Q[k].x), keep(Q[k].y), keep(Q[k].z)};
     Q[k].x.store(p);
     Q[k].y.store(p + 8);
     Q[k].z.store(p + 16);

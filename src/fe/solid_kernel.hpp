@@ -5,14 +5,16 @@
 
 #include <cstdint>
 
-#include "material/solid_stress.hpp"
+#include "material/j2.hpp"
 
 namespace gannet {
 
 /// What the elements of one block have in common.
 struct SolidConstants {
   SolidLaw law;
-  bool plastic = false;
+  PointLaw point_law = PointLaw::elastic;
+  J2Law j2;                          ///< where point_law is general
+  J2History history;                 ///< of j2
   double hourglass = 0.05;           ///< coefficient, see solid_element.hpp
   double inverse_wave_speed = 0;     ///< 1/c, c^2 = (lambda + 2 mu)/rho0 [s/m]
   double rho0 = 0;                   ///< [kg/m^3]
@@ -24,10 +26,11 @@ struct SolidConstants {
 /// Where the numbers of an element stand in its block: number k of lane l is at
 /// state[(block * n_values + k) * 8 + l].
 struct SolidLayout {
-  bool plastic = false;
+  int n_history = 0;      ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
   bool remembers = true;  ///< hourglass forces are kept: control by stiffness
   int n_points = 1;       ///< 1 or 8
-  [[nodiscard]] int per_point() const { return plastic ? 7 : 6; }
+  [[nodiscard]] bool plastic() const { return n_history > 0; }
+  [[nodiscard]] int per_point() const { return 6 + n_history; }
   /// sigma_xx, yy, zz, xy, yz, zx of a point [Pa]
   [[nodiscard]] int stress(int point) const { return point * per_point(); }
   [[nodiscard]] int plastic_strain(int point) const { return stress(point) + 6; }  ///< eps_p [-]
@@ -57,6 +60,7 @@ struct SolidSums {
   double plastic = 0;          ///< [J], part of it that plastic flow took
   double hourglass = 0;        ///< [J]
   double viscous = 0;          ///< [J], bulk viscosity
+  double eroded = 0;           ///< [J], left with points that failed
   double omega2 = 0;           ///< largest bound of an element's squared frequency, damped [1/s^2]
   std::int32_t element = -1;   ///< whose it is: 8 block + lane
   double volume_ratio = 1;     ///< smallest V/V0, at n and halfway to it

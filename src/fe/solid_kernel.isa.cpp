@@ -34,6 +34,7 @@ struct SolidLaneSums {
   Vec8 plastic = Vec8(0.0);
   Vec8 hourglass = Vec8(0.0);
   Vec8 viscous = Vec8(0.0);
+  Vec8 eroded = Vec8(0.0);
   Vec8 omega2 = Vec8(0.0);
   Vec8 block = Vec8(-1.0);
   Vec8 volume_ratio = Vec8(1.0);
@@ -114,14 +115,29 @@ GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t
   return m;
 }
 
+/// What is left of a number of elements: all of it.
+struct KeepAll {
+  GANNET_INLINE Vec8 operator()(Vec8 a) const { return a; }
+};
+
+/// What is left of a number of elements whose last point may have failed in this step: nothing.
+struct KeepCarrying {
+  Vec8 damage;  ///< smallest of the element's points
+  GANNET_INLINE Vec8 operator()(Vec8 a) const {
+    return select(less(damage, Vec8(1.0)), a, Vec8(0.0));
+  }
+};
+
 /// The bulk viscosity of the step; its pressure is kept in the state, its work added to the sums.
+template <class Keep>
 GANNET_INLINE BulkViscosity add_bulk_viscosity(const SolidPass& pass, const SolidMotion& m,
-                                               double* state, SolidLaneSums& sums) {
+                                               Keep keep, double* state, SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
   const Vec8 trace_e = m.e.xx + m.e.yy + m.e.zz;
   const Vec8 ratio = select(m.alive, m.now.volume * m.inverse_V0, Vec8(1.0));
-  const BulkViscosity bulk =
+  BulkViscosity bulk =
       bulk_viscosity(c, trace_e, pass.dt, m.length, Vec8(c.rho0) * reciprocal(ratio));
+  bulk.q = keep(bulk.q);
   double* kept = state + 8 * pass.layout.viscous_pressure();
   sums.viscous += m.of_alive(Vec8(-0.5) * (Vec8::load(kept) + bulk.q) * trace_e * m.half.volume);
   bulk.q.store(kept);
@@ -129,19 +145,39 @@ GANNET_INLINE BulkViscosity add_bulk_viscosity(const SolidPass& pass, const Soli
 }
 
 /// Hourglass forces of the step, their work added to the sums. k_h: stiffness [N/m].
+template <class Keep>
 GANNET_INLINE void add_hourglass(const SolidPass& pass, const SolidMotion& m, const Tensor& R,
-                                 Vec8 k_h, double* state, SolidLaneSums& sums, Vec8x3 Q[4]) {
+                                 Vec8 k_h, Keep keep, double* state, SolidLaneSums& sums,
+                                 Vec8x3 Q[4]) {
   Vec8x3 q[4];
   for (int k = 0; k < 4; ++k) {
     q[k] = scaled(m.v.g[k], Vec8(pass.dt)) - times(m.L, m.x_half.g[k]);
   }
   if (pass.layout.remembers) {
     double* kept = state + 8 * pass.layout.hourglass();
-    sums.hourglass += m.of_alive(hourglass_stiffness(kept, q, R, k_h, Q));
+    sums.hourglass += m.of_alive(hourglass_stiffness(kept, q, R, k_h, keep, Q));
   } else {
     sums.hourglass +=
-        m.of_alive(hourglass_viscosity(*pass.constants, q, k_h, pass.dt, m.length, Q));
+        m.of_alive(hourglass_viscosity(*pass.constants, q, keep(k_h), pass.dt, m.length, Q));
   }
+}
+
+/// Smallest damage of the points of each element.
+GANNET_INLINE Vec8 least_damage(const SolidPass& pass, const double* state) {
+  const J2History& h = pass.constants->history;
+  if (h.damage < 0) return Vec8(0.0);
+  Vec8 least(1.0);
+  for (int point = 0; point < pass.layout.n_points; ++point) {
+    const int k = pass.layout.plastic_strain(point) + h.damage;
+    least = min(least, Vec8::load(state + 8 * k));
+  }
+  return least;
+}
+
+/// Takes elements out whose last point has failed: they exert nothing from now on.
+GANNET_INLINE void take_out_failed(const SolidPass& pass, const KeepCarrying& keep, double* state) {
+  double* inverse_V0 = state + 8 * pass.layout.inverse_volume();
+  keep(Vec8::load(inverse_V0)).store(inverse_V0);
 }
 
 /// Adds the forces to the corners and notes the extremes. F: forces on the coefficients; omega2
@@ -168,34 +204,53 @@ GANNET_INLINE Vec8 damped_factor(Vec8 zeta) {
   return factor * factor;
 }
 
+/// Adds the work of a point or an element to the sums. volume: of what it is per [m^3].
+template <PointLaw law>
+GANNET_INLINE void add_work(const SolidMotion& m, const J2Work<Vec8>& work, Vec8 volume,
+                            SolidLaneSums& sums) {
+  sums.internal += m.of_alive(work.internal * volume);
+  if constexpr (law != PointLaw::elastic) sums.plastic += m.of_alive(work.plastic * volume);
+  if constexpr (law == PointLaw::general) sums.eroded += m.of_alive(work.eroded * volume);
+}
+
+/// Which elements still carry something after the stress of the step.
+template <PointLaw law>
+GANNET_INLINE auto keeper(const SolidPass& pass, const double* state) {
+  if constexpr (law == PointLaw::general) {
+    return KeepCarrying{least_damage(pass, state)};
+  } else {
+    return KeepAll{};
+  }
+}
+
 /// One block of eight elements with one point.
-template <bool plastic>
+template <PointLaw law>
 GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
   const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
   double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
   const SolidMotion m = solid_motion(pass, corners, state);
   const Tensor R = rotation_of(m.L);
-  Vec8 work;
-  Vec8 plastic_work;
-  Symmetric<Vec8> sigma = solid_stress<plastic>(c, state, m.e, R, work, plastic_work);
-  sums.internal += m.of_alive(work * m.half.volume);
-  if constexpr (plastic) sums.plastic += m.of_alive(plastic_work * m.half.volume);
-  const BulkViscosity bulk = add_bulk_viscosity(pass, m, state, sums);
+  J2Work<Vec8> work;
+  Symmetric<Vec8> sigma = solid_stress<law>(c, pass.dt, state, m.e, R, work);
+  add_work<law>(m, work, m.half.volume, sums);
+  const auto keep = keeper<law>(pass, state);
+  const BulkViscosity bulk = add_bulk_viscosity(pass, m, keep, state, sums);
   sigma.xx -= bulk.q;
   sigma.yy -= bulk.q;
   sigma.zz -= bulk.q;
   const Vec8 k_h = Vec8(8.0 * c.hourglass * (c.law.bulk + 4.0 / 3.0 * c.law.shear)) * m.gram.trace *
                    m.inverse_volume;
   Vec8x3 Q[4];
-  add_hourglass(pass, m, R, k_h, state, sums, Q);
+  add_hourglass(pass, m, R, k_h, keep, state, sums, Q);
   SolidModes F = solid_forces(m.now, m.x, sigma, Q, m.inverse_volume);
   const Vec8 omega2 = solid_omega2(c, m.gram, m.x, m.inverse_volume, m.inverse_mass, k_h);
-  finish_block(pass, m, corners, block, F, omega2 * damped_factor(bulk.zeta), state, sums);
+  if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
+  finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
 }
 
 /// One block of eight elements with eight points and a mean dilatation, see solid_element.hpp.
-template <bool plastic>
+template <PointLaw law>
 GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
                                      SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
@@ -215,37 +270,36 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
     e.xx += change;
     e.yy += change;
     e.zz += change;
-    Vec8 work;
-    Vec8 plastic_work;
+    J2Work<Vec8> work;
     double* kept = state + 8 * pass.layout.stress(point);
-    const Symmetric<Vec8> sigma =
-        solid_stress<plastic>(c, kept, e, rotation_of(L), work, plastic_work);
-    sums.internal += m.of_alive(work * half.det);
-    if constexpr (plastic) sums.plastic += m.of_alive(plastic_work * half.det);
+    const Symmetric<Vec8> sigma = solid_stress<law>(c, pass.dt, kept, e, rotation_of(L), work);
+    add_work<law>(m, work, half.det, sums);
     const PointGradient now = point_gradient(m.x, at);
     const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
     mean_stress += p * now.det;
     largest += largest_gram(now, at) * now.det;
     add_point_forces(now, at, sigma, p, F);
   }
-  const BulkViscosity bulk = add_bulk_viscosity(pass, m, state, sums);
+  const auto keep = keeper<law>(pass, state);
+  const BulkViscosity bulk = add_bulk_viscosity(pass, m, keep, state, sums);
   add_mean_stress(m.now, mean_stress * m.inverse_volume - bulk.q, F);
   // tr of the mean gradient and the deviator at each point are bounded apart.
   const Vec8 omega2 =
       Vec8(8.0) * m.inverse_mass *
       (Vec8(c.law.bulk) * m.gram.trace * m.inverse_volume + Vec8(2.0 * c.law.shear) * largest);
-  finish_block(pass, m, corners, block, F, omega2 * damped_factor(bulk.zeta), state, sums);
+  if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
+  finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
 }
 
-template <bool plastic, int points>
+template <PointLaw law, int points>
 GANNET_INLINE void solid_blocks(const SolidPass& pass, std::int32_t begin, std::int32_t end,
                                 SolidLaneSums& sums) {
   for (std::int32_t block = begin; block < end; ++block) {
     if (block + blocks_ahead < end) call_for(pass, block + blocks_ahead);
     if constexpr (points == 1) {
-      one_point_block<plastic>(pass, block, sums);
+      one_point_block<law>(pass, block, sums);
     } else {
-      eight_point_block<plastic>(pass, block, sums);
+      eight_point_block<law>(pass, block, sums);
     }
   }
 }
@@ -255,19 +309,24 @@ GANNET_INLINE void solid_blocks(const SolidPass& pass, std::int32_t begin, std::
 __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t begin,
                                           std::int32_t end, SolidSums& out) {
   SolidLaneSums sums;
+  const PointLaw law = pass.constants->point_law;
   const bool one = pass.layout.n_points == 1;
-  if (pass.constants->plastic) {
-    if (one) solid_blocks<true, 1>(pass, begin, end, sums);
-    if (!one) solid_blocks<true, 8>(pass, begin, end, sums);
+  if (law == PointLaw::linear_hardening) {
+    if (one) solid_blocks<PointLaw::linear_hardening, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<PointLaw::linear_hardening, 8>(pass, begin, end, sums);
+  } else if (law == PointLaw::general) {
+    if (one) solid_blocks<PointLaw::general, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<PointLaw::general, 8>(pass, begin, end, sums);
   } else {
-    if (one) solid_blocks<false, 1>(pass, begin, end, sums);
-    if (!one) solid_blocks<false, 8>(pass, begin, end, sums);
+    if (one) solid_blocks<PointLaw::elastic, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<PointLaw::elastic, 8>(pass, begin, end, sums);
   }
   out = {};
   out.internal = sum(sums.internal);
   out.plastic = sum(sums.plastic);
   out.hourglass = sum(sums.hourglass);
   out.viscous = sum(sums.viscous);
+  out.eroded = sum(sums.eroded);
   alignas(64) double omega2[8];
   alignas(64) double index[8];
   alignas(64) double ratio[8];

@@ -1,5 +1,9 @@
 #include "material/elastic_plastic.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -25,6 +29,140 @@ SolidLaw solid_law(const ElasticPlastic& material) {
           .yield = material.sigma_y,
           .hardening = material.H};
 }
+
+J2Law j2_law(const ElasticPlastic& material) {
+  J2Law law;
+  law.shear = material.G();
+  law.bulk = material.E / (3 * (1 - 2 * material.nu));
+  law.mean_rate = material.E / (3 * (1 - material.nu));
+  law.yield = material.sigma_y;
+  const auto add_bend = [&](double strain, double change) {
+    if (change == 0) return;
+    law.knot[law.n_bends] = strain;
+    law.bend[law.n_bends++] = change;
+  };
+  double slope = 0;
+  const std::size_t n = material.curve_strain.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto& e = material.curve_strain;
+    const auto& s = material.curve_stress;
+    const double next = k + 1 < n ? (s[k + 1] - s[k]) / (e[k + 1] - e[k]) : 0;
+    add_bend(e[k], next - slope);
+    slope = next;
+  }
+  add_bend(0, (1 - material.kinematic_fraction) * material.H);
+  law.kinematic = material.kinematic_fraction * material.H;
+  law.power_factor = material.power_factor;
+  law.power = material.power;
+  law.rate = material.rate_law;
+  law.inverse_rate = 1 / material.rate;
+  law.rate_power = material.rate_power;
+  const AdiabaticHeating& heating = material.heating;
+  if (heating.specific_heat > 0) {
+    law.heat = heating.fraction / (material.rho * heating.specific_heat);
+  }
+  law.inverse_range = 1 / heating.range;
+  law.thermal_power = heating.power;
+  const Failure& failure = material.failure;
+  law.fails = failure.given();
+  for (int k = 0; k < 5; ++k) {
+    law.failure[k] = failure.strain[k];
+    law.fails_by_state = law.fails_by_state || (k > 0 && failure.strain[k] != 0);
+  }
+  law.inverse_rate_fail = 1 / failure.rate;
+  return law;
+}
+
+namespace {
+
+constexpr Dimension specific_heat{{2, 0, -2, -1, 0}};
+
+std::vector<Key> johnson_cook_keys() {
+  return {{.name = "A",
+           .unit = dim::pressure,
+           .text = "yield stress at rest and at room temperature",
+           .required = true,
+           .limits = positive()},
+          {.name = "B",
+           .unit = dim::pressure,
+           .text = "factor of the plastic strain to the power n",
+           .required = true,
+           .limits = at_least(0)},
+          {.name = "n",
+           .text = "power of the plastic strain",
+           .required = true,
+           .limits = {.lowest = 0, .highest = 1, .lowest_open = true}},
+          {.name = "C", .text = "factor of ln(rate/rate0)", .fallback = "0", .limits = at_least(0)},
+          {.name = "rate0",
+           .unit = dim::frequency,
+           .text = "rate of the plastic strain up to which it does not count",
+           .fallback = "1 1/s",
+           .limits = positive()},
+          {.name = "m",
+           .text = "power of (T - room)/(melting - room)",
+           .fallback = "1",
+           .limits = positive()},
+          {.name = "room",
+           .unit = dim::temperature,
+           .text = "temperature at the start",
+           .fallback = "298 K",
+           .limits = at_least(0)},
+          {.name = "melting",
+           .unit = dim::temperature,
+           .text = "temperature at which the metal melts; with specific_heat",
+           .limits = positive()},
+          {.name = "specific_heat",
+           .unit = specific_heat,
+           .text = "heat of a mass per temperature; without it the temperature stays",
+           .limits = positive()},
+          {.name = "heat_fraction",
+           .text = "share of the plastic work that becomes heat (Taylor and Quinney)",
+           .fallback = "0.9",
+           .limits = between(0, 1)}};
+}
+
+std::vector<Key> curve_keys() {
+  return {{.name = "plastic_strain",
+           .kind = Kind::numbers,
+           .text = "plastic strains (true), from 0, rising",
+           .required = true,
+           .limits = at_least(0)},
+          {.name = "stress",
+           .kind = Kind::numbers,
+           .unit = dim::pressure,
+           .text = "true stresses there; beyond the last the metal hardens no more",
+           .required = true,
+           .limits = positive()}};
+}
+
+std::vector<Key> cowper_symonds_keys() {
+  return {{.name = "D",
+           .unit = dim::frequency,
+           .text = "rate that doubles the yield stress",
+           .required = true,
+           .limits = positive()},
+          {.name = "p",
+           .text = "exponent: the yield stress grows by 1 + (rate/D)^(1/p)",
+           .required = true,
+           .limits = at_least(1)}};
+}
+
+std::vector<Key> failure_keys() {
+  return {{.name = "plastic_strain",
+           .text = "plastic strain at which a point carries no more",
+           .limits = positive()},
+          {.name = "johnson_cook",
+           .kind = Kind::numbers,
+           .text = "D1 ... D5: plastic strain at failure (D1 + D2 exp(D3 mean/von Mises)) (1 + D4 "
+                   "ln(rate/rate0)) (1 + D5 T*)"},
+          {.name = "rate0",
+           .unit = dim::frequency,
+           .text = "of D4",
+           .fallback = "1 1/s",
+           .limits = positive()}};
+}
+
+}  // namespace
 
 Schema elastic_plastic_schema() {
   Schema s;
@@ -53,8 +191,140 @@ Schema elastic_plastic_schema() {
        .unit = dim::pressure,
        .text = "plastic modulus of a solid: growth of the yield stress per plastic strain",
        .limits = at_least(0)});
+  add({.name = "kinematic_fraction",
+       .text = "share of hardening_modulus that moves the yield surface instead of widening it",
+       .limits = between(0, 1)});
+  add({.name = "hardening_curve",
+       .kind = Kind::map,
+       .text = "yield stress of a solid by points over the plastic strain, straight between them",
+       .keys = curve_keys()});
+  add({.name = "cowper_symonds",
+       .kind = Kind::map,
+       .text = "yield stress that grows with the rate of the plastic strain",
+       .keys = cowper_symonds_keys()});
+  add({.name = "johnson_cook",
+       .kind = Kind::map,
+       .text = "yield stress (A + B eps_p^n) (1 + C ln(rate/rate0)) (1 - T*^m)",
+       .keys = johnson_cook_keys()});
+  add({.name = "failure",
+       .kind = Kind::map,
+       .text = "when a point carries no more; an element leaves with its last point",
+       .keys = failure_keys()});
   return s;
 }
+
+namespace {
+
+bool is_curve(const ElasticPlastic& solid) {
+  const auto& e = solid.curve_strain;
+  return e.size() == solid.curve_stress.size() && e.size() <= max_hardening_points &&
+         std::is_sorted(e.begin(), e.end(), std::less_equal<>());
+}
+
+void read_curve(const Keys& material, ElasticPlastic& solid) {
+  const Keys curve = material.map("hardening_curve");
+  solid.curve_strain = curve.numbers("plastic_strain");
+  solid.curve_stress = curve.numbers("stress");
+  const auto& e = solid.curve_strain;
+  const auto& s = solid.curve_stress;
+  if (e.size() != s.size() || e.empty()) {
+    curve.complain("stress", fmt::format("{} stresses for {} plastic strains", s.size(), e.size()));
+  } else if (e.size() > max_hardening_points) {
+    curve.complain("plastic_strain",
+                   fmt::format("{} points; at most {}", e.size(), max_hardening_points));
+  } else if (e[0] != 0) {
+    curve.complain("plastic_strain", fmt::format("starts at {:g}; the first is 0, where the metal "
+                                                 "begins to yield",
+                                                 e[0]));
+  }
+  for (std::size_t k = 1; k < std::min(e.size(), s.size()); ++k) {
+    if (!(e[k] > e[k - 1])) {
+      curve.complain("plastic_strain",
+                     fmt::format("{:g} after {:g}; they must rise", e[k], e[k - 1]));
+    }
+    if (s[k] < s[k - 1]) {
+      curve.complain("stress",
+                     fmt::format("{:g} Pa after {:g} Pa; they may not fall", s[k], s[k - 1]));
+    }
+  }
+  if (!s.empty()) solid.sigma_y = s[0];
+  // A curve with a mistake in it is left out of what is built before all mistakes are told.
+  if (!is_curve(solid)) solid.curve_strain.clear();
+}
+
+void read_johnson_cook(const Keys& material, ElasticPlastic& solid) {
+  const Keys jc = material.map("johnson_cook");
+  solid.sigma_y = jc.number("A");
+  solid.power_factor = jc.number("B");
+  solid.power = jc.number("n");
+  solid.rate_power = jc.number_or("C", 0);
+  solid.rate = jc.number_or("rate0", 1);
+  if (solid.rate_power > 0) solid.rate_law = RateLaw::johnson_cook;
+  if (!jc.has("specific_heat")) {
+    if (jc.has("melting")) jc.complain("melting", "has no meaning without specific_heat");
+    return;
+  }
+  solid.heating.specific_heat = jc.number("specific_heat");
+  solid.heating.fraction = jc.number_or("heat_fraction", 0.9);
+  solid.heating.power = jc.number_or("m", 1);
+  if (!jc.has("melting")) {
+    jc.complain("melting", "missing; with specific_heat the metal warms towards it");
+    return;
+  }
+  solid.heating.range = jc.number("melting") - jc.number_or("room", 298);
+  if (!(solid.heating.range > 0)) jc.complain("melting", "must be above 'room'");
+}
+
+void read_failure(const Keys& material, ElasticPlastic& solid) {
+  const Keys failure = material.map("failure");
+  if (failure.has("plastic_strain") == failure.has("johnson_cook")) {
+    material.complain("failure", "either plastic_strain or johnson_cook is wanted");
+    return;
+  }
+  solid.failure.rate = failure.number_or("rate0", 1);
+  if (failure.has("plastic_strain")) {
+    solid.failure.strain[0] = failure.number("plastic_strain");
+    return;
+  }
+  const std::vector<double>& D = failure.numbers("johnson_cook");
+  if (D.size() != 5) {
+    failure.complain("johnson_cook", fmt::format("{} numbers; D1 ... D5 are wanted", D.size()));
+    return;
+  }
+  for (std::size_t k = 0; k < 5; ++k) solid.failure.strain[k] = D[k];
+}
+
+/// What a key needs beside it, and what may not stand there.
+void check_company(const Keys& material, const ElasticPlastic& solid) {
+  int ways = 0;
+  const char* last = "";
+  for (const char* key : {"yield_stress", "hardening_curve", "johnson_cook"}) {
+    if (!material.has(key)) continue;
+    ++ways;
+    last = key;
+  }
+  if (ways > 1) {
+    material.complain(last,
+                      "one of yield_stress, hardening_curve and johnson_cook says when the "
+                      "solid yields, not two");
+  }
+  for (const char* key : {"hardening_modulus", "kinematic_fraction"}) {
+    if (material.has(key) && !material.has("yield_stress")) {
+      material.complain(key, "has no meaning without yield_stress");
+    }
+  }
+  for (const char* key : {"cowper_symonds", "failure"}) {
+    if (material.has(key) && !solid.plastic()) {
+      material.complain(key, "has no meaning for a solid that does not yield");
+    }
+  }
+  if (material.has("cowper_symonds") && solid.rate_law == RateLaw::johnson_cook) {
+    material.complain("cowper_symonds",
+                      "beside johnson_cook with its own C; one rate law, not two");
+  }
+}
+
+}  // namespace
 
 ElasticPlastic read_elastic_plastic(const Keys& material) {
   ElasticPlastic solid;
@@ -68,8 +338,16 @@ ElasticPlastic read_elastic_plastic(const Keys& material) {
   solid.nu = need("poisson", "Poisson's ratio", 0);
   solid.sigma_y = material.number_or("yield_stress", 0);
   solid.H = material.number_or("hardening_modulus", 0);
-  if (material.has("hardening_modulus") && !material.has("yield_stress")) {
-    material.complain("hardening_modulus", "has no meaning without yield_stress");
+  solid.kinematic_fraction = material.number_or("kinematic_fraction", 0);
+  if (material.has("hardening_curve")) read_curve(material, solid);
+  if (material.has("johnson_cook")) read_johnson_cook(material, solid);
+  if (material.has("failure")) read_failure(material, solid);
+  check_company(material, solid);
+  if (material.has("cowper_symonds")) {
+    const Keys rate = material.map("cowper_symonds");
+    solid.rate_law = RateLaw::cowper_symonds;
+    solid.rate = rate.number("D");
+    solid.rate_power = 1 / rate.number("p");
   }
   return solid;
 }

@@ -83,6 +83,10 @@ Sample solids_sample(const std::string& formulation) {
   return {[set] { return std::make_unique<WatchedRun>(taylor_bar, set); }, 150, false};
 }
 
+Sample metals_sample() {
+  return {[] { return std::make_unique<WatchedRun>(metals); }, 150, false};
+}
+
 Sample lines_sample() {
   return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
 }
@@ -302,6 +306,21 @@ TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "
   const std::string formulation = GENERATE("one_point", "eight_points");
   check_threads(solids_sample(formulation));
   check_restart(solids_sample(formulation));
+}
+
+TEST_CASE("same bits: metals that warm, turn round and fail, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(metals_sample());
+  check_restart(metals_sample());
+  const auto end = run(metals_sample(), 1);
+  for (const std::string name : {"solid.rod.eroded", "shell.sheet.eroded"}) {
+    double n = 0;
+    for (const Measure& m : end->s->scene.measures) {
+      if (m.name == name) m.sample(&n);
+    }
+    INFO(name);
+    CHECK(n > 0);
+  }
 }
 
 TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",

@@ -187,4 +187,39 @@ boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx,
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// Metals with all that they can have: a rod of copper that warms and fails at a wall, a bar with a
+/// yield surface that moves, and a sheet with a hardening curve, drawn out until elements leave.
+inline const std::string metals = R"case(gannet: 1
+materials:
+  copper:
+    density: 8960
+    young: 124 GPa
+    poisson: 0.34
+    johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.31, C: 0.025, m: 1.09, melting: 1331 K, specific_heat: 383 J/(kg*K)}
+    failure: {johnson_cook: [0.05, 0.2, -3.03, 0.014, 1.12]}
+  steel: {density: 7800, young: 210 GPa, poisson: 0.3, yield_stress: 300 MPa, hardening_modulus: 3 GPa, kinematic_fraction: 0.5, cowper_symonds: {D: 40.4 1/s, p: 5}}
+  plate:
+    density: 7800
+    young: 210 GPa
+    poisson: 0.3
+    hardening_curve: {plastic_strain: [0, 0.01, 0.1], stress: [300 MPa, 380 MPa, 450 MPa]}
+    failure: {plastic_strain: 0.02}
+parts:
+  rod:
+    solid: {material: copper}
+    shape: {rod: {from: [0, 0, 0], to: [0, 0, 32.4 mm], radius: 3.2 mm, elements: [3, 3, 42]}}
+    initial_velocity: [0, 0, -227 m/s]
+  bar:
+    solid: {material: steel, formulation: eight_points}
+    shape: {block: {from: [0.1 m, 0, 0], to: [0.2 m, 10 mm, 10 mm], elements: [60, 6, 6]}}
+    initial_velocity: ["60*cos(30*x)", "20*sin(90*x)", 0]
+  sheet:
+    shell: {material: plate, thickness: 1 mm, thickness_change: yes}
+    shape: {plate: {size: [0.1 m, 0.1 m], elements: [50, 50], centre: [0, 0.2 m, 0]}}
+    initial_velocity: ["1500*x*abs(x)/0.03", "20*sin(90*x)", "30*cos(50*y)"]
+boundaries:
+  wall: {nodes: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, of: rod}, fix: [z]}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 }  // namespace gannet::test
