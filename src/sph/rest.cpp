@@ -26,8 +26,10 @@ Schema schema() {
            .text = "water is not computed where nothing above a disturbance happens"};
   rest.keys = {
       {.name = "tolerance",
-       .text = "water slower than this share of `speed` may rest, and faster water wakes it",
-       .fallback = "1e-3",
+       .text =
+           "water that flows slower than this share of `speed` may rest, and faster water wakes "
+           "it",
+       .fallback = "1e-4",
        .limits = between(0, 100)},
       {.name = "speed",
        .unit = dim::velocity,
@@ -108,6 +110,8 @@ void make_state(const Keys& root, Scene& scene) {
   track(plain_field("rest", "", "Rest", Over::particles, rest.state, 1, GhostRule::none));
   track(plain_field("rest.disturbed_at", "s", "", Over::scene, rest.disturbed_at, 1,
                     GhostRule::none));
+  track(plain_field("rest.flow", "m/s", "", Over::scene, rest.flow, 1, GhostRule::none));
+  track_values(scene, "rest", "rest.looked_at", "s", 1, [&rest] { return &rest.looked_at; });
   track_values(scene, "rest", "rest.steps", "", 2,
                [&scene] { return &scene.resting.particle_steps; });
   track_values(scene, "rest", "rest.momentum", "kg m/s", 3,
@@ -141,6 +145,7 @@ void make_cells(const Keys& root, Rest& rest, const SphState& sph, const Scene& 
                           std::max<Index>(4096, scene.particles.size()));
   const auto n = static_cast<std::size_t>(rest.cells.size());
   rest.disturbed_at.assign(n, 0);
+  rest.flow.assign(3 * n, 0);
   rest.n_resting.assign(n, 0);
   rest.quiet = keys_of(root).number_or("quiet", usual_quiet(rest, sph, scene, high - low));
 }

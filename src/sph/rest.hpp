@@ -1,10 +1,12 @@
 // Water at rest: particles where nothing above a stated disturbance happens are not computed.
 //
-// Space is cut into cells as wide as the neighbour lists reach. A cell is disturbed while a
-// particle in it is faster than u = tolerance * speed, while something in it moves as it was told
-// (a wall, a plane) or a part of elements is in it. A cell is in motion from when it, or one up to
-// two cells away, is disturbed, until that was not so for the time `quiet`. Particles of cells that
-// are not in motion rest: they keep place and density, v = f = 0, and are neighbours of the others.
+// Space is cut into cells as wide as the neighbour lists reach. A cell is disturbed while the flow
+// in it, the mean velocity of its particles smoothed over quiet/4, is faster than u = tolerance *
+// speed, while one particle is faster than 20 u, while something in it moves as it was told (a
+// wall, a plane) or a part of elements is in it. So what sound that goes to and fro and particles
+// that find their places do does not count. A cell is in motion from when it, or one up to two
+// cells away, is disturbed, until that was not so for the time `quiet`. Particles of cells that are
+// not in motion rest: they keep place and density, v = f = 0, and are neighbours of the others.
 //
 // Disturbances are looked for every four steps; sound crosses 2.8 h in that time, and two cells are
 // more than 4 h wide: what comes is computed before it arrives. In equilibrium frozen pressures do
@@ -65,11 +67,14 @@ struct Rest {
   RestCells cells;               ///< of the scene at the start
   Array<std::uint8_t> state;     ///< tracked: RestState of each particle
   Array<double> disturbed_at;    ///< tracked: when each cell was last in motion [s]
+  Array<double> flow;            ///< tracked: smoothed velocity in each cell, x y z [m/s]
+  double looked_at = 0;          ///< tracked: when disturbances were last looked for [s]
   std::vector<Index> n_resting;  ///< particles at rest in each cell
   bool woken = false;            ///< a particle is `rest_woken`
   // Work space.
   CellMarks marks;
   std::vector<Index> n_awake;  ///< particles in motion in each cell
+  std::vector<Line> sum_v;     ///< of the fluid in motion in each cell; w: how many particles
   Array<Index> place;          ///< cell of each particle in motion; -1 - cell where it is too fast
   Array<Index> border;         ///< clusters of particles at rest that are seen
   Array<double> drho_dt;       ///< that these would have [kg/(m^3 s)]
@@ -82,8 +87,13 @@ inline constexpr Index rest_every = 4;
 inline constexpr Index rest_margin = 2;
 inline constexpr Index rest_ahead = 2;
 
-/// Marks the cells that are disturbed now; fills place and n_awake.
-void find_disturbed(Rest& rest, const SphState& sph, const Scene& scene);
+/// How much faster than the flow one particle may be, for itself.
+inline constexpr double rest_jitter = 20;
+
+/// Marks the cells that are disturbed at time t [s], where it was last looked at rest.looked_at;
+/// fills place and n_awake and brings the flow to t:
+///   u_c += (1 - exp(-4 (t - t_last)/quiet)) (mean of v - u_c)
+void find_disturbed(Rest& rest, const SphState& sph, const Scene& scene, double t);
 
 /// Looks for disturbances at time t [s] and notes which cells are in motion. True where particles
 /// have to wake, or where a sixteenth of those in motion may rest.

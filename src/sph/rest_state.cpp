@@ -63,6 +63,19 @@ void mark_planes(const Scene& scene, const RestCells& cells, CellMarks& marks) {
   }
 }
 
+/// Brings the flow in the cells to time t and marks where it is too fast.
+void mark_flow(Rest& rest, double t) {
+  const double share = 1 - std::exp(-4 * (t - rest.looked_at) / rest.quiet);
+  const double limit = rest.tolerance * rest.speed;
+  for (Index c = 0; c < rest.cells.size(); ++c) {
+    const Line& sum = rest.sum_v[c];
+    Eigen::Map<Vec3> flow(&rest.flow[3 * c]);
+    flow += share * (xyz(sum) / std::max(sum.w, 1.0) - flow);
+    if (!(flow.squaredNorm() <= limit * limit)) rest.marks[c] = 1;
+  }
+  rest.looked_at = t;
+}
+
 /// Whether a cell was left alone long enough at time t.
 bool is_quiet(const Rest& rest, Index cell, double t) {
   return t - rest.disturbed_at[cell] >= rest.quiet;
@@ -228,9 +241,9 @@ void widen(const RestCells& cells, Index steps, CellMarks& marks) {
   }
 }
 
-void find_disturbed(Rest& rest, const SphState& sph, const Scene& scene) {
+void find_disturbed(Rest& rest, const SphState& sph, const Scene& scene, double t) {
   const Index n = scene.awake().size();
-  const double limit = rest.tolerance * rest.speed;
+  const double limit = rest_jitter * rest.tolerance * rest.speed;
   rest.place.resize(static_cast<std::size_t>(n));
   parallel_for(n, node_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
@@ -243,17 +256,22 @@ void find_disturbed(Rest& rest, const SphState& sph, const Scene& scene) {
   const auto n_cells = static_cast<std::size_t>(rest.cells.size());
   rest.marks.assign(n_cells, 0);
   rest.n_awake.assign(n_cells, 0);
+  rest.sum_v.assign(n_cells, {});
   for (Index k = 0; k < n; ++k) {
     const Index c = rest.place[k] < 0 ? -1 - rest.place[k] : rest.place[k];
     ++rest.n_awake[c];
     if (rest.place[k] < 0) rest.marks[c] = 1;
+    if (!is_fluid(scene, k)) continue;
+    add_xyz(rest.sum_v[c], xyz(scene.nodes.v[scene.particles.begin + k]));
+    rest.sum_v[c].w += 1;
   }
+  mark_flow(rest, t);
   mark_elements(scene, rest.cells, sph.dx, rest.marks);
   mark_planes(scene, rest.cells, rest.marks);
 }
 
 bool look_for_rest(Rest& rest, const SphState& sph, const Scene& scene, double t) {
-  find_disturbed(rest, sph, scene);
+  find_disturbed(rest, sph, scene, t);
   widen(rest.cells, rest_margin, rest.marks);
   bool wake = false;
   Index sleepy = 0;

@@ -134,7 +134,7 @@ const std::vector<std::string>& measure_kinds() {
       "peak",      "time_of_peak", "maximum", "minimum",      "final",
       "mean",      "impulse",      "slope",   "percentile",   "rms",
       "amplitude", "phase",        "midline", "largest_mean", "time_of_largest_mean",
-      "arrival",   "distance"};
+      "arrival",   "rise",         "distance"};
   return kinds;
 }
 
@@ -286,6 +286,7 @@ double evaluate(const StudyMeasure& measure, const TimeSeries& series) {
   if (kind == "time_of_peak") return s.t[index_of_peak(s.y)];
   if (kind == "maximum") return *std::max_element(s.y.begin(), s.y.end());
   if (kind == "minimum") return *std::min_element(s.y.begin(), s.y.end());
+  if (kind == "rise") return *std::max_element(s.y.begin(), s.y.end()) - s.y.front();
   if (kind == "final") return s.y.back();
   if (kind == "impulse") return integral(s, 1);
   if (kind == "mean") return integral(s, 1) / (s.t.back() - s.t.front());

@@ -38,6 +38,7 @@ const std::vector<std::string>& measure_kinds();
 ///   time_of_largest_mean: the middle of that window
 ///   amplitude, phase, midline: A >= 0, phi in (-pi, pi], m of the least squares of
 ///   m + A sin(2 pi t/period + phi)
+///   rise: largest value less the first
 ///   arrival: when y first reaches measure.level from below, linear between samples; unknown where
 ///   it never does
 /// Throws std::runtime_error where the window holds too few samples.

@@ -53,6 +53,7 @@ TEST_CASE("measures: hand-made numbers", "[study]") {
   CHECK(measured("maximum", s) == 2);
   CHECK(measured("minimum", s) == -4);
   CHECK(measured("final", s) == 1);
+  CHECK(measured("rise", s) == 2);
   CHECK(measured("impulse", s) == Approx(-2.5));
   CHECK(measured("mean", s) == Approx(-2.5 / 4));
   // Squares 0, 4, 16, 1: 2 + 20 + 8.5 = 30.5 over 4 s.
