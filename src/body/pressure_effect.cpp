@@ -64,7 +64,7 @@ void read_load(const Keys& keys, const std::string& name, Scene& scene) {
     return;
   }
   const Part& part = scene.parts[static_cast<std::size_t>(load.part)];
-  if (part.cell != Cell::quad && part.cell != Cell::triangle) {
+  if (part.kind == "solid" || (part.cell != Cell::quad && part.cell != Cell::triangle)) {
     keys.complain("on", fmt::format("part '{}' has no surface for a pressure", part.name));
     return;
   }

@@ -64,7 +64,11 @@ struct Sides {
   }
 };
 
+/// Contact knows neither the faces of solids nor lines in space yet.
 bool is_surface(const Part& part) {
+  for (const char* kind : {"solid", "cable", "beam"}) {
+    if (part.kind == kind) return false;
+  }
   return part.cell == Cell::line || part.cell == Cell::triangle || part.cell == Cell::quad;
 }
 

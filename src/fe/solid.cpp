@@ -30,7 +30,19 @@ SolidConstants make_constants(const ElasticPlastic& material, const SolidSection
 
 }  // namespace
 
+namespace {
+
+double area_of(const SolidBlock& block, Index e, std::span<const Line> x) {
+  const auto corner = [&](int k) {
+    return xyz(x[static_cast<std::size_t>(corner_of(block.corners, 4, e, k))]);
+  };
+  return 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1)).z();
+}
+
+}  // namespace
+
 double volume_of(const SolidBlock& block, Index e, std::span<const Line> x) {
+  if (block.layout.plane) return area_of(block, e, x);
   // Signs of xi, eta, zeta at the corners.
   constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
@@ -58,9 +70,10 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.constants = make_constants(material, section);
   assert(section.points == 1 || section.points == 8);
   block.layout = {material.plastic() ? block.constants.history.n : 0,
-                  section.points == 1 && !section.viscous_hourglass, section.points};
-  block.n_elements = static_cast<Index>(connectivity.size() / 8);
-  block.corners = corners_by_block(connectivity, 8);
+                  section.points == 1 && !section.viscous_hourglass, section.points, section.plane};
+  const int n_corners = block.layout.n_corners();
+  block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
+  block.corners = corners_by_block(connectivity, n_corners);
   block.state.assign(
       static_cast<std::size_t>(blocks_for(block.n_elements) * block.layout.n_values() * lanes), 0);
   for (Index e = 0; e < block.n_elements; ++e) {
@@ -71,16 +84,18 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
     }
     block.value(e, block.layout.inverse_volume()) = 1 / volume;
   }
-  block.colouring = colour_chunks(connectivity, 8, chunk);
+  block.colouring = colour_chunks(connectivity, n_corners, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;
 }
 
 void add_solid_masses(const SolidBlock& block, Nodes& nodes) {
   for (Index e = 0; e < block.n_elements; ++e) {
-    const double mass = block.material.rho / (8 * block.value(e, block.layout.inverse_volume()));
-    for (int a = 0; a < 8; ++a) {
-      nodes.x[static_cast<std::size_t>(corner_of(block.corners, 8, e, a))].w += mass;
+    const int n_corners = block.layout.n_corners();
+    const double mass =
+        block.material.rho / (n_corners * block.value(e, block.layout.inverse_volume()));
+    for (int a = 0; a < n_corners; ++a) {
+      nodes.x[static_cast<std::size_t>(corner_of(block.corners, n_corners, e, a))].w += mass;
     }
   }
 }

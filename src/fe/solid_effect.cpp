@@ -73,15 +73,19 @@ Schema schema() {
   return element_schema("solid", "the part is made of solid elements", solid_keys());
 }
 
+/// The cells of a part: of its shape, or in a plane case the quadrilaterals of a file.
+VolumeMesh mesh_of(const Keys& part, int dimension) {
+  if (dimension == 3 || !part.has("mesh")) return volume_mesh(part, dimension);
+  SurfaceMesh file = surface_mesh(part);
+  return {std::move(file.points), std::move(file.quads), 4};
+}
+
 void add_parts(const Keys& root, Draft& draft) {
   for (const Keys& part : parts_with(root, "solid")) {
-    if (draft.dimension != 3) {
-      part.complain("solid", "8-node solids need three dimensions");
-      continue;
-    }
-    const VolumeMesh mesh = volume_mesh(part, draft.dimension);
+    const VolumeMesh mesh = mesh_of(part, draft.dimension);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p = element_draft(part, "solid", Cell::hexahedron, false);
+    PartDraft p = element_draft(part, "solid",
+                                mesh.nodes_per_cell == 4 ? Cell::quad : Cell::hexahedron, false);
     set_mesh(part, mesh.points, mesh.cells, p);
     draft.parts.push_back(std::move(p));
   }
@@ -99,8 +103,9 @@ bool resists_viscously(const Keys& solid, const ElasticPlastic& material) {
   return material.plastic();
 }
 
-SolidSection read_section(const Keys& solid, const ElasticPlastic& material) {
+SolidSection read_section(const Keys& solid, const ElasticPlastic& material, bool plane) {
   SolidSection section;
+  section.plane = plane;
   section.viscous_hourglass = resists_viscously(solid, material);
   if (has_eight_points(solid)) {
     section.points = 8;
@@ -164,7 +169,7 @@ void state(const Keys& root, Scene& scene) {
     auto& list = scene.store.get<SolidBlocks>().list;
     try {
       list.push_back(make_solid_block(part.connectivity, scene.nodes.x, material,
-                                      read_section(solid, material)));
+                                      read_section(solid, material, part.cell == Cell::quad)));
     } catch (const std::invalid_argument& e) {
       keys.complain("solid", e.what());
       continue;

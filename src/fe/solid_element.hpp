@@ -30,6 +30,10 @@
 //   L = 1/J sum_k (d v/d xi_k) c_k^T,   e = sym L + (tr L_mean - tr L)/3 I,
 //   F of d x/d xi_k = -sum_points dev(sigma) c_k,   F_mode -= p_mean D_mode.
 //
+// A quadrilateral in plane strain is the solid one unit thick whose two faces move alike: its
+// corners 4-7 are its corners 0-3, the patterns that are odd in zeta vanish but for a3 = (0, 0,
+// 1/2) of the positions, and bounds of frequencies leave out what only acts across the plane.
+//
 // For *.isa.cpp files only.
 #pragma once
 
@@ -72,6 +76,33 @@ GANNET_INLINE SolidModes modes_of(const Vec8x3 f[8]) {
   c.g[2] = pattern_xi_eta(p);
   c.g[3] = pattern_xi_eta(m);
   return c;
+}
+
+/// The same of a field that is alike on both faces, from corners 0-3. across: a3.
+GANNET_INLINE SolidModes plane_modes_of(const Vec8x3 f[4], const Vec8x3& across) {
+  const Vec8 quarter(0.25);
+  const Vec8x3 zero{Vec8(0.0), Vec8(0.0), Vec8(0.0)};
+  SolidModes c;
+  c.a[0] = scaled((f[1] - f[0]) + (f[2] - f[3]), quarter);
+  c.a[1] = scaled((f[3] - f[0]) + (f[2] - f[1]), quarter);
+  c.a[2] = across;
+  c.g[0] = zero;
+  c.g[1] = zero;
+  c.g[2] = scaled((f[0] - f[1]) + (f[2] - f[3]), quarter);
+  c.g[3] = zero;
+  return c;
+}
+
+/// What forces on the coefficients are at corners 0-3 where both faces hang on them.
+GANNET_INLINE void plane_corners_of(const SolidModes& F, Vec8x3 f[4]) {
+  const Vec8 quarter(0.25);
+  const Vec8x3 sum = scaled(F.a[0] + F.a[1], quarter);
+  const Vec8x3 gap = scaled(F.a[0] - F.a[1], quarter);
+  const Vec8x3 g = scaled(F.g[2], quarter);
+  f[0] = g - sum;
+  f[1] = gap - g;
+  f[2] = g + sum;
+  f[3] = -(gap + g);
 }
 
 /// The transpose of modes_of(): what forces on the coefficients are at the corners.
@@ -192,6 +223,13 @@ GANNET_INLINE Vec8 largest_eigenvalue_bound(const Symmetric<Vec8>& G) {
   return Vec8(1.0 / 3.0) * trace + Vec8(0.81649658092772603) * sqrt(max(d2, Vec8(0.0)));
 }
 
+/// The largest eigenvalue of the part of a symmetric tensor in the plane, exactly.
+GANNET_INLINE Vec8 largest_in_plane(const Symmetric<Vec8>& G) {
+  const Vec8 half(0.5);
+  const Vec8 gap = half * (G.xx - G.yy);
+  return half * (G.xx + G.yy) + sqrt(gap * gap + G.xy * G.xy);
+}
+
 /// The trace of the Gram matrix sum_I B_I B_I^T of the mean gradients, and the bound of its largest
 /// eigenvalue: sharp for a cube and for a flat element. Both times V^2.
 struct GramBound {
@@ -199,7 +237,7 @@ struct GramBound {
   Vec8 largest;
 };
 
-GANNET_INLINE GramBound gram_bound(const SolidGeometry& G) {
+GANNET_INLINE GramBound gram_bound(const SolidGeometry& G, bool plane) {
   Symmetric<Vec8> sum{Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0)};
   for (int k = 0; k < 6; ++k) {
     const Vec8x3& D = k < 3 ? G.a[k] : G.g[k - 3];
@@ -211,6 +249,7 @@ GANNET_INLINE GramBound gram_bound(const SolidGeometry& G) {
     sum.zx += D.z * D.x;
   }
   const Vec8 eighth(0.125);
+  if (plane) return {eighth * (sum.xx + sum.yy), eighth * largest_in_plane(sum)};
   return {eighth * (sum.xx + sum.yy + sum.zz), eighth * largest_eigenvalue_bound(sum)};
 }
 
@@ -290,8 +329,9 @@ GANNET_INLINE void add_mean_stress(const SolidGeometry& G, Vec8 mean, SolidModes
 }
 
 /// Bound of the largest eigenvalue of sum_I B_I B_I^T at a Gauss point, B_I the gradients of the
-/// shape functions there [1/m^2]: sum_I (dN_I/dxi_k)^2 = 2/9, and xi_k xi_l/6 for k != l.
-GANNET_INLINE Vec8 largest_gram(const PointGradient& g, const SolidPlace& at) {
+/// shape functions there [1/m^2]: sum_I (dN_I/dxi_k)^2 = 2/9, and xi_k xi_l/6 for k != l. In a
+/// plane case the two corners above each other move alike: three quarters of that, in the plane.
+GANNET_INLINE Vec8 largest_gram(const PointGradient& g, const SolidPlace& at, bool plane) {
   const Vec8 two_ninths(2.0 / 9.0);
   const Vec8 xy(at.xi * at.eta / 6);
   const Vec8 yz(at.eta * at.zeta / 6);
@@ -309,7 +349,8 @@ GANNET_INLINE Vec8 largest_gram(const PointGradient& g, const SolidPlace& at) {
     G.zx += g.c[k].z * w[k].x;
   }
   const Vec8 inverse_det = reciprocal(g.det);
-  return largest_eigenvalue_bound(G) * inverse_det * inverse_det;
+  const Vec8 largest = plane ? Vec8(0.75) * largest_in_plane(G) : largest_eigenvalue_bound(G);
+  return largest * inverse_det * inverse_det;
 }
 
 }  // namespace gannet::GANNET_ISA_NS

@@ -29,7 +29,9 @@ struct SolidLayout {
   int n_history = 0;      ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
   bool remembers = true;  ///< hourglass forces are kept: control by stiffness
   int n_points = 1;       ///< 1 or 8
+  bool plane = false;     ///< quadrilaterals in plane strain, one unit thick
   [[nodiscard]] bool plastic() const { return n_history > 0; }
+  [[nodiscard]] int n_corners() const { return plane ? 4 : 8; }
   [[nodiscard]] int per_point() const { return 6 + n_history; }
   /// sigma_xx, yy, zz, xy, yz, zx of a point [Pa]
   [[nodiscard]] int stress(int point) const { return point * per_point(); }
@@ -49,7 +51,7 @@ struct SolidPass {
   const double* x = nullptr;              ///< lines: position at n [m]
   const double* v = nullptr;              ///< lines: velocity at n-1/2 [m/s]
   double* f = nullptr;                    ///< lines: forces are added [N]
-  const std::int32_t* corners = nullptr;  ///< 64 a block: corner a of lane l at 8 a + l
+  const std::int32_t* corners = nullptr;  ///< 64 a block (plane: 32): corner a of lane l at 8 a + l
   double* state = nullptr;
   double dt = 0;  ///< t(n) - t(n-1) [s]
 };

@@ -10,15 +10,19 @@ namespace {
 /// Blocks between the one at work and the one whose data is called for.
 constexpr std::int32_t blocks_ahead = 2;
 
+GANNET_INLINE const std::int32_t* corners_of_block(const SolidPass& pass, std::int32_t block) {
+  return pass.corners + 8 * pass.layout.n_corners() * static_cast<std::int64_t>(block);
+}
+
 /// Calls for the state and the nodes of a later block: four of the eight corners, which with those
 /// of its neighbours are nearly every node.
 GANNET_INLINE void call_for(const SolidPass& pass, std::int32_t block) {
   const int n_values = pass.layout.n_values();
   const double* state = pass.state + static_cast<std::int64_t>(block) * n_values * 8;
   for (int k = 0; k < n_values; ++k) __builtin_prefetch(state + 8 * k, 1);
-  const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
-  constexpr int some[4] = {0, 2, 5, 7};
-  for (const int a : some) {
+  const std::int32_t* corners = corners_of_block(pass, block);
+  constexpr int some[2][4] = {{0, 2, 5, 7}, {0, 1, 2, 3}};
+  for (const int a : some[pass.layout.plane ? 1 : 0]) {
     for (int lane = 0; lane < 8; ++lane) {
       const std::int64_t line = 4 * static_cast<std::int64_t>(corners[8 * a + lane]);
       __builtin_prefetch(pass.x + line);
@@ -85,8 +89,14 @@ struct SolidMotion {
   }
 };
 
-GANNET_INLINE SolidModes gather_modes(const double* base, const std::int32_t* corners) {
+/// across: half the distance of the faces of a plane case, for positions; 0 for other fields.
+GANNET_INLINE SolidModes gather_modes(const double* base, const std::int32_t* corners, bool plane,
+                                      double across) {
   Vec8x3 at_corner[8];
+  if (plane) {
+    for (int a = 0; a < 4; ++a) at_corner[a] = gather_corner(base, corners, a);
+    return plane_modes_of(at_corner, {Vec8(0.0), Vec8(0.0), Vec8(across)});
+  }
   for (int a = 0; a < 8; ++a) at_corner[a] = gather_corner(base, corners, a);
   return modes_of(at_corner);
 }
@@ -95,8 +105,9 @@ GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t
                                        const double* state) {
   const SolidConstants& c = *pass.constants;
   SolidMotion m;
-  m.x = gather_modes(pass.x, corners);
-  m.v = gather_modes(pass.v, corners);
+  const bool plane = pass.layout.plane;
+  m.x = gather_modes(pass.x, corners, plane, 0.5);
+  m.v = gather_modes(pass.v, corners, plane, 0);
   const Vec8 half_dt(0.5 * pass.dt);
   for (int k = 0; k < 3; ++k) m.x_half.a[k] = m.x.a[k] - scaled(m.v.a[k], half_dt);
   for (int k = 0; k < 4; ++k) m.x_half.g[k] = m.x.g[k] - scaled(m.v.g[k], half_dt);
@@ -104,7 +115,7 @@ GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t
   m.L = mean_gradient(m.half, m.v, Vec8(pass.dt) * reciprocal(m.half.volume));
   m.e = symmetric_part(m.L);
   m.now = solid_geometry(m.x);
-  m.gram = gram_bound(m.now);
+  m.gram = gram_bound(m.now, plane);
   m.inverse_V0 = Vec8::load(state + 8 * pass.layout.inverse_volume());
   const auto there = less(Vec8(0.0), m.inverse_V0);
   m.shrunk_to = select(there, min(m.now.volume, m.half.volume) * m.inverse_V0, Vec8(1.0));
@@ -192,8 +203,10 @@ GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
     forget_collapsed(pass.layout, m.alive, state);
   }
   Vec8x3 at_corner[8];
-  corners_of(F, at_corner);
-  for (int a = 0; a < 8; ++a) scatter_corner(pass.f, corners, a, at_corner[a]);
+  pass.layout.plane ? plane_corners_of(F, at_corner) : corners_of(F, at_corner);
+  for (int a = 0; a < pass.layout.n_corners(); ++a) {
+    scatter_corner(pass.f, corners, a, at_corner[a]);
+  }
   note_extremes(m.of_alive(omega2), m.shrunk_to, block, sums);
 }
 
@@ -227,7 +240,7 @@ GANNET_INLINE auto keeper(const SolidPass& pass, const double* state) {
 template <PointLaw law>
 GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
-  const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
+  const std::int32_t* corners = corners_of_block(pass, block);
   double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
   const SolidMotion m = solid_motion(pass, corners, state);
   const Tensor R = rotation_of(m.L);
@@ -254,7 +267,7 @@ template <PointLaw law>
 GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
                                      SolidLaneSums& sums) {
   const SolidConstants& c = *pass.constants;
-  const std::int32_t* corners = pass.corners + 64 * static_cast<std::int64_t>(block);
+  const std::int32_t* corners = corners_of_block(pass, block);
   double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
   const SolidMotion m = solid_motion(pass, corners, state);
   const Vec8 mean_e = Vec8(1.0 / 3.0) * (m.e.xx + m.e.yy + m.e.zz);
@@ -277,7 +290,7 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
     const PointGradient now = point_gradient(m.x, at);
     const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
     mean_stress += p * now.det;
-    largest += largest_gram(now, at) * now.det;
+    largest += largest_gram(now, at, pass.layout.plane) * now.det;
     add_point_forces(now, at, sigma, p, F);
   }
   const auto keep = keeper<law>(pass, state);

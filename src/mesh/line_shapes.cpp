@@ -5,23 +5,13 @@
 namespace gannet {
 namespace {
 
-/// The corners under `points`: a list of three lengths each.
+/// The corners under `points`, each at another place than the one before it.
 std::vector<Vec3> corners_of(const Keys& keys) {
-  std::vector<Vec3> corners;
-  for (const Value& point : keys.value("points").children) {
-    if (point.children.size() != 3) {
-      keys.complain(point, "a point is wanted: [x, y, z]");
-      return {};
-    }
-    Vec3 x;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[static_cast<Eigen::Index>(k)] = keys.quantity(point.children[k], dim::length);
-    }
-    if (!corners.empty() && !((x - corners.back()).norm() > 0)) {
-      keys.complain(point, "is the same point as the one before it");
-      return {};
-    }
-    corners.push_back(x);
+  std::vector<Vec3> corners = points_under(keys, "points");
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    if ((corners[k] - corners[k - 1]).norm() > 0) continue;
+    keys.complain(keys.value("points").children[k], "is the same point as the one before it");
+    return {};
   }
   if (corners.size() < 2) {
     keys.complain("points", "a line needs two points or more: [[x, y, z], [x, y, z]]");

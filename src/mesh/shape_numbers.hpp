@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/keys.hpp"
 #include "base/math.hpp"
@@ -43,6 +44,23 @@ std::optional<std::array<int, N>> counts(const Keys& keys, std::string_view key)
     return {};
   }
   return n;
+}
+
+/// The points under `key`, a list of three lengths each; none, and a complaint, after a mistake.
+inline std::vector<Vec3> points_under(const Keys& keys, std::string_view key) {
+  std::vector<Vec3> points;
+  for (const Value& point : keys.value(key).children) {
+    if (point.children.size() != 3) {
+      keys.complain(point, "a point is wanted: [x, y, z]");
+      return {};
+    }
+    Vec3 x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[static_cast<Eigen::Index>(k)] = keys.quantity(point.children[k], dim::length);
+    }
+    points.push_back(x);
+  }
+  return points;
 }
 
 /// Whether `to` lies beyond `from` along the first n axes; complains under 'to' where not.

@@ -95,6 +95,31 @@ VolumeMesh block(const Keys& keys, int dimension) {
   return n ? block_volume(from, to, *n) : VolumeMesh{};
 }
 
+/// The points under `corners`: `wanted` of them, or a complaint and none.
+std::vector<Vec3> corners_of(const Keys& keys, std::size_t wanted) {
+  std::vector<Vec3> corners = points_under(keys, "corners");
+  if (corners.size() == wanted) return corners;
+  keys.complain("corners",
+                fmt::format("{} points are given; {} are wanted", corners.size(), wanted));
+  return {};
+}
+
+VolumeMesh mapped(const Keys& keys, int dimension) {
+  if (!keys.has("corners") || !keys.has("elements")) return {};
+  const std::vector<Vec3> corners = corners_of(keys, dimension == 2 ? 4 : 8);
+  if (corners.empty()) return {};
+  VolumeMesh mesh;
+  if (dimension == 2) {
+    const auto n = counts<2>(keys, "elements");
+    if (n) mesh = block_area(Vec3::Zero(), Vec3::Ones(), *n);
+  } else {
+    const auto n = counts<3>(keys, "elements");
+    if (n) mesh = block_volume(Vec3::Zero(), Vec3::Ones(), *n);
+  }
+  for (Vec3& p : mesh.points) p = mapped_point(corners, p);
+  return mesh;
+}
+
 VolumeMesh rod(const Keys& keys, int dimension) {
   if (dimension == 2) {
     keys.mistakes().add(keys.where(), keys.path() + ": a round bar needs three dimensions");
@@ -112,6 +137,16 @@ VolumeMesh rod(const Keys& keys, int dimension) {
 }
 
 }  // namespace
+
+Vec3 mapped_point(std::span<const Vec3> corners, const Vec3& p) {
+  const auto face = [&](std::size_t first) -> Vec3 {
+    const Vec3* c = &corners[first];
+    return (1 - p.y()) * ((1 - p.x()) * c[0] + p.x() * c[1]) +
+           p.y() * ((1 - p.x()) * c[3] + p.x() * c[2]);
+  };
+  if (corners.size() == 4) return face(0);
+  return (1 - p.z()) * face(0) + p.z() * face(4);
+}
 
 VolumeMesh block_area(const Vec3& from, const Vec3& to, std::array<int, 2> n) {
   VolumeMesh mesh;
@@ -147,28 +182,40 @@ VolumeMesh rod_volume(const Vec3& from, const Vec3& to, double radius, std::arra
 }
 
 std::vector<Key> volume_shape_keys() {
-  return {{.name = "block",
-           .kind = Kind::map,
-           .text = "a box of solids; a rectangle in a plane case",
-           .keys = {place_key("from", "corner with the smallest coordinates", true),
-                    place_key("to", "corner with the largest coordinates", true),
-                    elements_key("number of elements along x, y and z (x, y in a plane case)")}},
-          {.name = "rod",
-           .kind = Kind::map,
-           .text = "a round bar of solids",
-           .keys = {place_key("from", "middle of one end", true),
-                    place_key("to", "middle of the other end", true),
-                    length_key("radius", "its radius"),
-                    elements_key("number of elements along a side of the square core, of rings "
-                                 "around it, and along the bar")}}};
+  return {
+      {.name = "block",
+       .kind = Kind::map,
+       .text = "a box of solids; a rectangle in a plane case",
+       .keys = {place_key("from", "corner with the smallest coordinates", true),
+                place_key("to", "corner with the largest coordinates", true),
+                elements_key("number of elements along x, y and z (x, y in a plane case)")}},
+      {.name = "mapped",
+       .kind = Kind::map,
+       .text = "a box of solids between eight points; in a plane case between four",
+       .keys = {{.name = "corners",
+                 .kind = Kind::any,
+                 .text = "the lower face counter-clockwise, seen from above, then the upper one",
+                 .required = true},
+                elements_key("number of elements from corner 1 to 2, 1 to 4 and 1 to 5")}},
+      {.name = "rod",
+       .kind = Kind::map,
+       .text = "a round bar of solids",
+       .keys = {place_key("from", "middle of one end", true),
+                place_key("to", "middle of the other end", true),
+                length_key("radius", "its radius"),
+                elements_key("number of elements along a side of the square core, of rings "
+                             "around it, and along the bar")}}};
 }
 
-bool is_volume_shape(const Keys& shape) { return shape.has("block") || shape.has("rod"); }
+bool is_volume_shape(const Keys& shape) {
+  return shape.has("block") || shape.has("mapped") || shape.has("rod");
+}
 
 VolumeMesh volume_mesh(const Keys& part, int dimension) {
   if (!part.has("shape") || !is_volume_shape(part.map("shape"))) {
     part.mistakes().add(
-        part.where(), part.path() + ": its volume is missing; a 'shape' (block or rod) is wanted");
+        part.where(),
+        part.path() + ": its volume is missing; a 'shape' (block, mapped or rod) is wanted");
     return {};
   }
   const Keys shape = part.map("shape");
@@ -177,8 +224,9 @@ VolumeMesh volume_mesh(const Keys& part, int dimension) {
                                                     shape.path(), shape.names().size()));
     return {};
   }
-  return shape.has("block") ? block(shape.map("block"), dimension)
-                            : rod(shape.map("rod"), dimension);
+  if (shape.has("block")) return block(shape.map("block"), dimension);
+  if (shape.has("mapped")) return mapped(shape.map("mapped"), dimension);
+  return rod(shape.map("rod"), dimension);
 }
 
 }  // namespace gannet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/array.hpp"
@@ -25,6 +26,10 @@ VolumeMesh block_volume(const Vec3& from, const Vec3& to, std::array<int, 3> n);
 /// A rectangle of n[0] x n[1] quadrilaterals between two corners, in the plane of the first. from <
 /// to in x and y [m]; n >= 1. Throws nothing.
 VolumeMesh block_area(const Vec3& from, const Vec3& to, std::array<int, 2> n);
+
+/// The point (xi, eta, zeta) in [0, 1]^3 of a map between corners, linear along each of them:
+/// eight in the order of VTK, or four of a plane (zeta has no meaning).
+Vec3 mapped_point(std::span<const Vec3> corners, const Vec3& p);
 
 /// A round bar of hexahedra: over the section a core of n[0] x n[0] cells within n[1] rings, n[2]
 /// layers along it. The corners of the core lie on the diagonals at 0.55 of the radius; its sides

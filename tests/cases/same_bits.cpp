@@ -87,6 +87,10 @@ Sample metals_sample() {
   return {[] { return std::make_unique<WatchedRun>(metals); }, 150, false};
 }
 
+Sample plane_sample() {
+  return {[] { return std::make_unique<WatchedRun>(plane_block); }, 150, false};
+}
+
 Sample lines_sample() {
   return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
 }
@@ -321,6 +325,11 @@ TEST_CASE("same bits: metals that warm, turn round and fail, 1, 2, 3 and 5 threa
     INFO(name);
     CHECK(n > 0);
   }
+}
+
+TEST_CASE("same bits: plane solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(plane_sample());
+  check_restart(plane_sample());
 }
 
 TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",

@@ -22,6 +22,19 @@ inline const std::vector<std::string> small_dam{"let.dx=a/60", "output.checkpoin
 inline const std::string taylor_bar = "cases/taylor_bar/case.yaml";
 inline const std::vector<std::string> small_bar{"n=3", "output.checkpoint=never"};
 
+/// A plane block of 40 x 40 quadrilaterals that yields as it hits a wall.
+inline const std::string plane_block = R"case(gannet: 1
+dimension: 2
+materials: {metal: {density: 8930, young: 117 GPa, poisson: 0.35, yield_stress: 400 MPa, hardening_modulus: 100 MPa}}
+parts:
+  block:
+    solid: {material: metal}
+    shape: {mapped: {corners: [[0, 0, 0], [10 mm, 0, 0], [9 mm, 20 mm, 0], [1 mm, 20 mm, 0]], elements: [40, 40]}}
+    initial_velocity: [0, -100 m/s, 0]
+boundaries: {foot: {nodes: {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, of: block}, fix: [y]}}
+output: {until: 1 ms, checkpoint: never}
+)case";
+
 /// A paddle that pushes still water, 200 x 25 particles: at first all of it falls asleep but what
 /// is at the paddle, then its waves wake what they meet, and that goes to sleep again.
 inline const std::string resting = R"case(gannet: 1

@@ -11,18 +11,6 @@ using namespace gannet::test;
 
 namespace {
 
-/// Lets motion die out: v and omega lose the share rate dt of themselves a step.
-void add_drag(Simulation& s, double rate) {
-  Nodes& nodes = s.scene.nodes;
-  s.models.list.front().plan.add(
-      {.name = "drag of the test", .stage = Stage::kick, .run = [&nodes, rate](const Step& step) {
-         const double keep = std::exp(-rate * step.dt);
-         for (auto* lines : {&nodes.v, &nodes.omega}) {
-           for (Line& v : *lines) set_xyz(v, keep * xyz(v));
-         }
-       }});
-}
-
 /// The node of a line that starts nearest to x.
 Index node_near(const Simulation& s, const Vec3& x) {
   Index best = 0;

@@ -132,4 +132,16 @@ void run_until(Simulation& s, double until, F&& look) {
   }
 }
 
+/// Lets motion die out: v and omega lose the share rate dt of themselves a step.
+inline void add_drag(Simulation& s, double rate) {
+  Nodes& nodes = s.scene.nodes;
+  s.models.list.front().plan.add(
+      {.name = "drag of the test", .stage = Stage::kick, .run = [&nodes, rate](const Step& step) {
+         const double keep = std::exp(-rate * step.dt);
+         for (auto* lines : {&nodes.v, &nodes.omega}) {
+           for (Line& v : *lines) set_xyz(v, keep * xyz(v));
+         }
+       }});
+}
+
 }  // namespace gannet::test

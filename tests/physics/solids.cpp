@@ -97,3 +97,96 @@ TEST_CASE("physics: a solid that is crushed stops the run, or leaves, and nothin
   CHECK(erodes->scene.store.get<SolidBlocks>().list.front().n_eroded > 0);
   for (const Line& x : erodes->scene.nodes.x) CHECK(xyz(x).allFinite());
 }
+
+TEST_CASE("physics: a plane beam under gravity swings as Turek and Hron's", "[physics]") {
+  // CSM3 of Turek & Hron (2006, doi 10.1007/3-540-34596-5_15): the tip swings from 0 to
+  // -63.607 - 65.160 mm at 1.0995 Hz.
+  const double lowest = -0.128767;
+  const double period = 1 / 1.0995;
+  double error[2];
+  double late[2];
+  for (const int n : {1, 2}) {
+    const auto s = make_simulation_of_text(fmt::format(
+        "gannet: 1\n"
+        "dimension: 2\n"
+        "materials: {{rubber: {{density: 1000, young: 1.4 MPa, poisson: 0.4}}}}\n"
+        "parts: {{beam: {{solid: {{material: rubber, formulation: eight_points, bulk_viscosity: "
+        "{{linear: 0, quadratic: 0}}}}, shape: {{block: {{from: [0, -0.01 m, 0], to: [0.35 m, 0.01 "
+        "m, 0], elements: [{}, {}]}}}}}}}}\n"
+        "boundaries: {{root: {{nodes: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, of: "
+        "beam}}, "
+        "fix: [x, y]}}}}\n"
+        "loads: {{gravity: [0, -2 m/s^2, 0]}}\n"
+        "probes: {{tip: {{displacement: {{node: {{nearest: [0.35 m, 0, 0], of: beam}}}}}}}}\n"
+        "output: {{until: 2 s}}\n",
+        35 * n, 2 * n));
+    double least = 0;
+    double when = 0;
+    run_until(*s, 1.2 * period, [&] {
+      const double y = measured(s->scene, "probe.tip", 1);
+      if (y < least) when = time_of(*s);
+      least = std::min(least, y);
+    });
+    error[n - 1] = least / lowest - 1;
+    late[n - 1] = when / (0.5 * period) - 1;
+    CHECK(energy_error(*s) < 1e-6);
+  }
+  WARN(
+      fmt::format("lowest {:+.2f}, {:+.2f} %, at {:+.2f}, {:+.2f} % of half a period; order {:.2f}",
+                  100 * error[0], 100 * error[1], 100 * late[0], 100 * late[1],
+                  std::log2(error[0] / error[1])));
+  CHECK(std::abs(error[1]) < 0.02);
+  CHECK(std::abs(late[1]) < 0.02);
+  CHECK(error[0] / error[1] > 3);
+}
+
+TEST_CASE("physics: Cook's tapered panel in plane strain", "[physics]") {
+  // Corner deflection of the panel 48 m long, 44 m and 16 m high, under a shear force of 1 N:
+  // 96 x 96 quadratic elements change the last digit shown.
+  struct Solid {
+    const char* material;
+    const char* formulation;
+    double exact;
+    double tolerance;  ///< on the finest mesh
+    int coarsest;      ///< elements a side
+  };
+  const Solid solids[] = {{"young: 1, poisson: 0.3", "eight_points", 23.0228, 0.02, 8},
+                          {"young: 1, poisson: 0.3", "one_point", 23.0228, 0.05, 4},
+                          {"young: 240.565, poisson: 0.4999", "eight_points", 0.0800530, 0.02, 4}};
+  for (const Solid& solid : solids) {
+    std::vector<double> error;
+    for (const int n : {solid.coarsest, 2 * solid.coarsest, 4 * solid.coarsest}) {
+      const auto s = make_simulation_of_text(fmt::format(
+          "gannet: 1\n"
+          "dimension: 2\n"
+          "materials: {{m: {{density: 1, {0}}}}}\n"
+          "parts: {{panel: {{solid: {{material: m, formulation: {1}, bulk_viscosity: {{linear: 0, "
+          "quadratic: 0}}}}, shape: {{mapped: {{corners: [[0, 0, 0], [48 m, 44 m, 0], [48 m, 60 m, "
+          "0], [0, 44 m, 0]], elements: [{2}, {2}]}}}}}}}}\n"
+          "boundaries: {{root: {{nodes: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, of: "
+          "panel}}, fix: [x, y]}}}}\n"
+          "loads:\n"
+          "  shear: {{force: {{nodes: {{plane: {{point: [48 m, 0, 0], normal: [1, 0, 0]}}, of: "
+          "panel}}, value: [0, {3} mN, 0]}}}}\n"
+          "  low: {{force: {{nodes: {{nearest: [48 m, 44 m, 0], of: panel}}, value: [0, {4} mN, "
+          "0]}}}}\n"
+          "  high: {{force: {{nodes: {{nearest: [48 m, 60 m, 0], of: panel}}, value: [0, {4} mN, "
+          "0]}}}}\n"
+          "probes: {{corner: {{displacement: {{node: {{nearest: [48 m, 60 m, 0], of: "
+          "panel}}}}}}}}\n"
+          "effects: {{guards: off}}\n"
+          "output: {{until: 1e6 s}}\n",
+          solid.material, solid.formulation, n, 1.0 * (n + 1) / n, -0.5 / n));
+      const double stiffness = solid.exact > 1 ? 1 : 240;
+      // The lowest mode takes about 600 s where E = 1.
+      add_drag(*s, 0.02 * std::sqrt(stiffness));
+      run_until(*s, 1000 / std::sqrt(stiffness), [] {});
+      error.push_back(1e3 * measured(s->scene, "probe.corner", 1) / solid.exact - 1);
+    }
+    WARN(fmt::format("{}, {}: {:+.2f}, {:+.2f}, {:+.2f} % from {} elements a side on; order {:.2f}",
+                     solid.material, solid.formulation, 100 * error[0], 100 * error[1],
+                     100 * error[2], solid.coarsest, std::log2(error[1] / error[2])));
+    CHECK(std::abs(error[2]) < solid.tolerance);
+    CHECK(std::abs(error[2]) < std::abs(error[1]));
+  }
+}

@@ -1,6 +1,7 @@
 // The one-point solid: patch test, hand-made volumes and hourglass forces, momentum, objectivity.
 #include "fe/solid.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
@@ -315,4 +316,110 @@ TEST_CASE("solid: eight points see every pattern, and a nearly incompressible so
     const double energy = m.G() * (2.0 / 3 * 4 / 3) * 0.1 + 0.5 * m.G() * (4.0 / 3) * 0.1;
     CHECK(bent.internal == Approx(energy * dt * dt).epsilon(1e-6));
   }
+}
+
+TEST_CASE("solid: a quadrilateral in plane strain is a brick one unit thick", "[fe]") {
+  const int points = GENERATE(1, 8);
+  const double yield = GENERATE(0.0, 2e3);
+  ElasticPlastic metal = soft;
+  metal.sigma_y = yield;
+  metal.H = 1e4;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Vec3> flat;
+  for (int k = 0; k < 20; ++k) {
+    flat.emplace_back(0.1 * (k % 5) + 0.02 * u(random), 0.1 * (k / 5) + 0.02 * u(random), 0);
+  }
+  Solid thick = bricks({4, 3, 1}, [&](int i, int j, int k) {
+    return Vec3(flat[static_cast<std::size_t>(5 * j + i)] + Vec3(0, 0, k));
+  });
+  std::vector<Index> quads;
+  for (std::size_t c = 0; c < thick.cells.size(); c += 8) {
+    quads.insert(quads.end(), thick.cells.begin() + static_cast<std::ptrdiff_t>(c),
+                 thick.cells.begin() + static_cast<std::ptrdiff_t>(c) + 4);
+  }
+  Solid thin = solid_of(flat, quads);
+  // Bulk viscosity and hourglass control look at the size of an element, which has no thickness.
+  SolidSection section = with_points(points, inviscid);
+  section.hourglass_coefficient = 0;
+  SolidBlock bricks_block = make_solid_block(thick.cells, thick.nodes.x, metal, section);
+  section.plane = true;
+  SolidBlock block = make_solid_block(thin.cells, thin.nodes.x, metal, section);
+  const double dt = 1e-4;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Vec3 v(5 * u(random), 5 * u(random), 0);
+    for (Line* line : {&thin.nodes.v[i], &thick.nodes.v[i], &thick.nodes.v[i + 20]}) {
+      set_xyz(*line, v);
+    }
+  }
+  for (int step = 0; step < 3; ++step) {
+    for (Solid* s : {&thin, &thick}) {
+      for (std::size_t i = 0; i < s->nodes.x.size(); ++i) {
+        set_xyz(s->nodes.f[i], Vec3::Zero());
+        add_xyz(s->nodes.x[i], dt * xyz(s->nodes.v[i]));
+      }
+    }
+    const ElementWork of_thin = solid_pass(block, thin.nodes, dt);
+    const ElementWork of_thick = solid_pass(bricks_block, thick.nodes, dt);
+    CHECK(of_thin.internal == Approx(of_thick.internal).epsilon(1e-10));
+    CHECK(of_thin.plastic == Approx(of_thick.plastic).epsilon(1e-10));
+    CHECK((yield == 0 || of_thin.plastic > 0));
+  }
+  double worst = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Vec3 both = xyz(thick.nodes.f[i]) + xyz(thick.nodes.f[i + 20]);
+    worst = std::max(worst, (xyz(thin.nodes.f[i]) - both).norm());
+    largest = std::max(largest, both.norm());
+    CHECK(thin.nodes.f[i].z == 0);
+  }
+  CHECK(worst < 1e-12 * largest);
+}
+
+TEST_CASE("solid: the bound of the frequency of a quadrilateral holds and is near", "[fe]") {
+  const int points = GENERATE(1, 8);
+  const double skew = GENERATE(0.0, 0.3);
+  SolidSection section = with_points(points, inviscid);
+  section.plane = true;
+  const std::vector<Vec3> corners{
+      {0, 0, 0}, {0.2, 0, 0}, {0.2 + skew * 0.1, 0.1, 0}, {skew * 0.1, 0.1, 0}};
+  // Stiffness by columns: forces after a small step of one node, over the displacement.
+  Eigen::MatrixXd K(8, 8);
+  double omega2 = 0;
+  double mass = 0;
+  for (int column = 0; column < 8; ++column) {
+    Solid s = solid_of(corners, {0, 1, 2, 3});
+    SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, section);
+    add_solid_masses(block, s.nodes);
+    const double dt = 1e-6;
+    double* v = column % 2 == 0 ? &s.nodes.v[column / 2].x : &s.nodes.v[column / 2].y;
+    *v = 1e-3;
+    solid_pass(block, s.nodes, dt);
+    for (int row = 0; row < 8; ++row) {
+      const Line& f = s.nodes.f[row / 2];
+      K(row, column) = -(row % 2 == 0 ? f.x : f.y) / (1e-3 * dt);
+    }
+    omega2 = block.omega2;
+    mass = s.nodes.x[0].w;
+  }
+  const Eigen::MatrixXd even = 0.5 / mass * (K + K.transpose());
+  const double exact = even.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  CHECK(omega2 >= exact);
+  CHECK(omega2 < 1.6 * exact);
+}
+
+TEST_CASE("solid: hourglass stiffness of a square in plane strain by hand", "[fe]") {
+  // Side 0.1 m: tr G = V = a^2, so k_h = 8 kappa (lambda + 2 mu) = 0.4 1.2e6 N/m; at u = 1e-5 m
+  // in the pattern Q = k_h u, a quarter of it on each corner.
+  SolidSection section = with_points(1, inviscid);
+  section.plane = true;
+  Solid s = solid_of({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {0, 1, 2, 3});
+  SolidBlock block = make_solid_block(s.cells, s.nodes.x, soft, section);
+  const double dt = 1e-9;
+  for (std::size_t i = 0; i < 4; ++i) s.nodes.v[i].x = i % 2 == 0 ? 1e4 : -1e4;
+  const ElementWork work = solid_pass(block, s.nodes, dt);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(s.nodes.f[i].x == Approx(i % 2 == 0 ? -1.2 : 1.2).epsilon(1e-3));
+  }
+  CHECK(work.hourglass == Approx(0.5 * 4.8 * 1e-5).epsilon(1e-3));
 }
