@@ -187,24 +187,27 @@ BenchResult bench_cable(int n, bool whole_step) {
 }
 
 std::vector<Benchmark> all_benchmarks() {
-  return {{"fe.shell.pass.50k", [] { return bench_shell(224); }},
-          {"fe.shell.pass.400k", [] { return bench_shell(632); }},
-          {"fe.shell.flat.50k", [] { return bench_shell(224, ", warping: no"); }},
-          {"fe.shell.flat.400k", [] { return bench_shell(632, ", warping: no"); }},
-          {"fe.solid.pass.50k", [] { return bench_solid(37); }},
-          {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
-          {"fe.solid.pass.400k", [] { return bench_solid(74); }},
-          {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
-          {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},
-          {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
-          {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
-          {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
-          {"sph.step.100k", [] { return bench_sph_step(46); }},
-          {"sph.pass.fused.1M", [] { return bench_sph_pass(100, Pass::fused); }},
-          {"sph.pass.fused.1M.single", [] { return bench_sph_pass(100, Pass::fused, true); }},
-          {"sph.pass.fused.4M", [] { return bench_sph_pass(159, Pass::fused); }},
-          {"sph.step.1M", [] { return bench_sph_step(100); }},
-          {"sph.step.1M.single", [] { return bench_sph_step(100, true); }}};
+  return {
+      {"fe.shell.pass.50k", [] { return bench_shell(224); }},
+      {"fe.shell.pass.400k", [] { return bench_shell(632); }},
+      {"fe.shell.flat.50k", [] { return bench_shell(224, ", warping: no"); }},
+      {"fe.shell.full.50k", [] { return bench_shell(224, ", formulation: fully_integrated"); }},
+      {"fe.shell.full.400k", [] { return bench_shell(632, ", formulation: fully_integrated"); }},
+      {"fe.shell.flat.400k", [] { return bench_shell(632, ", warping: no"); }},
+      {"fe.solid.pass.50k", [] { return bench_solid(37); }},
+      {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
+      {"fe.solid.pass.400k", [] { return bench_solid(74); }},
+      {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
+      {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},
+      {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
+      {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
+      {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
+      {"sph.step.100k", [] { return bench_sph_step(46); }},
+      {"sph.pass.fused.1M", [] { return bench_sph_pass(100, Pass::fused); }},
+      {"sph.pass.fused.1M.single", [] { return bench_sph_pass(100, Pass::fused, true); }},
+      {"sph.pass.fused.4M", [] { return bench_sph_pass(159, Pass::fused); }},
+      {"sph.step.1M", [] { return bench_sph_step(100); }},
+      {"sph.step.1M.single", [] { return bench_sph_step(100, true); }}};
 }
 
 }  // namespace

@@ -38,29 +38,35 @@ ShellConstants make_constants(const ElasticPlastic& material, const ShellSection
   c.hourglass_warp = r * section.shear_factor * material.G() / 12;
   c.inverse_wave_speed = std::sqrt(material.rho * (1 - material.nu * material.nu) / material.E);
   c.membrane_modulus = material.E / (1 - std::abs(material.nu));
-  c.nodal_mass_factor = material.rho * section.thickness / 4;
+  c.nodal_mass_factor = material.rho * section.thickness / corners_per(section.kind);
   c.thickness = section.thickness;
   return c;
 }
 
 Vec3 corner(std::span<const Line> x, Index node) { return xyz(x[static_cast<std::size_t>(node)]); }
 
-/// e1, e2, e3 as columns, and the area: the same frame as in shell_element.hpp.
+/// e1, e2, e3 as columns, and the area: the same frame as in the kernels.
 struct ElementFrame {
   Mat3 axes;
   double area = 0;
 };
 
 ElementFrame frame_of(const ShellBlock& block, Index e, std::span<const Line> x) {
+  const int n_corners = block.n_corners();
   Vec3 p[4];
   for (int a = 0; a < 4; ++a) {
-    p[a] = corner(x, corner_of(block.corners, 4, e, a));
+    p[a] = corner(x, corner_of(block.corners, n_corners, e, std::min(a, n_corners - 1)));
   }
   const Vec3 n = (p[2] - p[0]).cross(p[3] - p[1]);
   ElementFrame frame;
   frame.area = 0.5 * n.norm();
   const Vec3 e3 = n.normalized();
-  const Vec3 side = p[1] - p[0];
+  Vec3 side = p[1] - p[0];
+  if (block.section.kind == ShellKind::quad) {
+    side = (p[1] + p[2]) - (p[0] + p[3]) + ((p[2] + p[3]) - (p[0] + p[1])).cross(e3);
+  } else if (block.section.kind == ShellKind::triangle) {
+    side += (p[2] - p[0]).cross(e3);
+  }
   const Vec3 e1 = (side - side.dot(e3) * e3).normalized();
   frame.axes << e1, e3.cross(e1), e3;
   return frame;
@@ -80,14 +86,31 @@ void fill_state(ShellBlock& block, std::span<const Line> x) {
   }
 }
 
-/// Fibres common to the elements around a node, in the frames of the elements.
-void fill_fibres(ShellBlock& block, std::span<const Index> connectivity, std::span<const Line> x) {
-  const std::vector<Vec3> fibre = fibres_of(connectivity, x);
+/// Fibres of elements that know no others: those of quadrilaterals, of triangles with a corner
+/// twice.
+std::vector<Vec3> own_fibres(std::span<const Index> connectivity, int n_corners,
+                             std::span<const Line> x) {
+  if (n_corners == 4) return fibres_of(connectivity, x);
+  std::vector<Index> quads;
+  for (std::size_t k = 0; k < connectivity.size(); k += 3) {
+    for (const std::size_t a : {0, 1, 2, 2}) quads.push_back(connectivity[k + a]);
+  }
+  const std::vector<Vec3> of_quads = fibres_of(quads, x);
+  std::vector<Vec3> fibre;
+  for (std::size_t k = 0; k < of_quads.size(); ++k) {
+    if (k % 4 < 3) fibre.push_back(of_quads[k]);
+  }
+  return fibre;
+}
+
+/// Fibres into the frames of the elements.
+void fill_fibres(ShellBlock& block, std::span<const Vec3> fibre, std::span<const Line> x) {
+  const int n_corners = block.n_corners();
   for (Index e = 0; e < 8 * block.n_blocks(); ++e) {
     const Index of = std::min(e, block.n_elements - 1);
     const Mat3 R = frame_of(block, of, x).axes;
-    for (int a = 0; a < 4; ++a) {
-      const Vec3 p = R.transpose() * fibre[static_cast<std::size_t>(4 * of + a)];
+    for (int a = 0; a < n_corners; ++a) {
+      const Vec3 p = R.transpose() * fibre[static_cast<std::size_t>(n_corners * of + a)];
       block.value(e, block.layout.fibres() + 2 * a) = p.x() / p.z();
       block.value(e, block.layout.fibres() + 2 * a + 1) = p.y() / p.z();
     }
@@ -99,12 +122,22 @@ Mat3 middle_stress(const ShellBlock& block, Index e) {
   const int n = block.layout.n_points;
   const int lower = (n - 1) / 2;
   const int upper = n / 2;
+  const int in_plane = block.layout.in_plane();
   const auto at = [&](int component) {
-    return 0.5 * (block.value(e, lower * block.layout.per_point + component) +
-                  block.value(e, upper * block.layout.per_point + component));
+    double sum = 0;
+    for (int g = 0; g < in_plane; ++g) {
+      const int first = block.layout.stress(g) + component;
+      sum += 0.5 * (block.value(e, first + lower * block.layout.per_point) +
+                    block.value(e, first + upper * block.layout.per_point));
+    }
+    return sum / in_plane;
   };
-  const double xz = block.value(e, block.layout.shear());
-  const double yz = block.value(e, block.layout.shear() + 1);
+  double xz = 0;
+  double yz = 0;
+  for (int g = 0; g < in_plane; ++g) {
+    xz += block.value(e, block.layout.shear() + 2 * g) / in_plane;
+    yz += block.value(e, block.layout.shear() + 2 * g + 1) / in_plane;
+  }
   Mat3 s;
   s << at(0), at(2), xz, at(2), at(1), yz, xz, yz, 0;
   return s;
@@ -114,32 +147,39 @@ Mat3 middle_stress(const ShellBlock& block, Index e) {
 
 ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const Line> x,
                             const ElasticPlastic& material, const ShellSection& section,
-                            Index chunk) {
+                            Index chunk, std::span<const Vec3> fibre) {
   assert(section.thickness > 0 && section.points >= 1 && section.points <= max_shell_points);
   assert(chunk > 0 && chunk % 8 == 0);
   ShellBlock block;
   block.material = material;
   block.section = section;
   block.constants = make_constants(material, section);
+  const bool has_fibres = section.warping || section.kind != ShellKind::one_point;
   block.layout = {section.points, 3 + (material.plastic() ? block.constants.history.n : 0),
-                  section.warping};
-  block.n_elements = static_cast<Index>(connectivity.size() / 4);
-  block.corners = corners_by_block(connectivity, 4);
+                  has_fibres, section.kind};
+  const int n_corners = block.n_corners();
+  block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
+  block.corners = corners_by_block(connectivity, n_corners);
   fill_state(block, x);
-  if (section.warping) fill_fibres(block, connectivity, x);
-  block.colouring = colour_chunks(connectivity, 4, chunk);
+  if (has_fibres && !fibre.empty()) {
+    fill_fibres(block, fibre, x);
+  } else if (has_fibres) {
+    fill_fibres(block, own_fibres(connectivity, n_corners, x), x);
+  }
+  block.colouring = colour_chunks(connectivity, n_corners, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;
 }
 
 void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
   const double t = block.section.thickness;
+  const int n_corners = block.n_corners();
   for (Index e = 0; e < block.n_elements; ++e) {
     const double area = 1 / block.value(e, block.layout.inverse_area());
     const double mass = block.constants.nodal_mass_factor * area;
-    const double alpha = std::max(t * t / 12, area / 8);
-    for (int a = 0; a < 4; ++a) {
-      const auto node = static_cast<std::size_t>(corner_of(block.corners, 4, e, a));
+    const double alpha = std::max(t * t / 12, area / (n_corners == 3 ? 6 : 8));
+    for (int a = 0; a < n_corners; ++a) {
+      const auto node = static_cast<std::size_t>(corner_of(block.corners, n_corners, e, a));
       nodes.x[node].w += mass;
       nodes.torque[node].w += alpha * mass;
     }
@@ -161,17 +201,30 @@ ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque
           .dt = dt};
 }
 
+/// The pass over blocks [begin, end) that the kind of element has.
+void pass_blocks(ShellKind kind, const ShellPass& pass, Index begin, Index end, ShellSums& sums,
+                 Isa set) {
+  const bool wide = set == Isa::avx512;
+  switch (kind) {
+    case ShellKind::one_point:
+      (wide ? avx512::shell_force : avx2::shell_force)(pass, begin, end, sums);
+      return;
+    case ShellKind::quad:
+      (wide ? avx512::shell_quad_force : avx2::shell_quad_force)(pass, begin, end, sums);
+      return;
+    case ShellKind::triangle:
+      (wide ? avx512::shell_triangle_force : avx2::shell_triangle_force)(pass, begin, end, sums);
+      return;
+  }
+}
+
 }  // namespace
 
 ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) {
   const ShellPass pass = pass_over(block, nodes, nodes.f.data(), nodes.torque.data(), dt_old);
   for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
-    ShellSums& sums = block.sums[static_cast<std::size_t>(chunk)];
-    if (set == Isa::avx512) {
-      avx512::shell_force(pass, begin, end, sums);
-    } else {
-      avx2::shell_force(pass, begin, end, sums);
-    }
+    pass_blocks(block.section.kind, pass, begin, end, block.sums[static_cast<std::size_t>(chunk)],
+                set);
   });
   ElementWork work;
   block.omega2 = 0;
@@ -201,7 +254,7 @@ std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& no
   // An element without thickness has no vote: whoever led a block of 8 is taken out of it.
   const auto leader = [&](Index b) {
     ShellSums sums;
-    GANNET_DISPATCH(shell_force, pass, b, b + 1, sums);
+    pass_blocks(block.section.kind, pass, b, b + 1, sums, isa());
     return sums;
   };
   std::vector<ShellSums> first;
@@ -244,7 +297,7 @@ void show_largest(const ShellBlock& block, int j, Array<double>& shown) {
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
       double& largest = shown[static_cast<std::size_t>(e)];
-      for (int k = 0; k < block.layout.n_points; ++k) {
+      for (int k = 0; k < block.layout.in_plane() * block.layout.n_points; ++k) {
         largest = std::max(largest, block.value(e, block.layout.per_point * k + 3 + j));
       }
     }

@@ -21,13 +21,14 @@ enum class HourglassForm { stiffness, viscous };
 
 /// What makes a surface a shell.
 struct ShellSection {
+  ShellKind kind = ShellKind::one_point;
   double thickness = 0;  ///< [m], > 0
   int points = 5;        ///< Gauss points through the thickness, 1..7
   HourglassForm hourglass = HourglassForm::stiffness;
   double hourglass_coefficient = 0.03;  ///< r, see shell_element.hpp
   double shear_factor = 5.0 / 6.0;      ///< kappa
   bool thickness_changes = false;
-  bool warping = true;     ///< the warping correction, see shell_element.hpp
+  bool warping = true;     ///< of the one-point element: fibres, see shell_element.hpp
   double dt_factor = 0.9;  ///< share of the stable step that is voted for
 };
 
@@ -40,7 +41,7 @@ struct ShellBlock {
   ShellConstants constants;
   ShellLayout layout;
   Index n_elements = 0;
-  Array<Index> corners;  ///< 32 a block of 8: corner a of lane l at 8 a + l
+  Array<Index> corners;  ///< of a block of 8 in a row: corner a of lane l at 8 a + l
   Array<double> state;   ///< layout.n_values() * 8 a block
   ChunkColours colouring;
   std::vector<ShellSums> sums;  ///< one a chunk, of the last pass
@@ -49,6 +50,7 @@ struct ShellBlock {
   Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p over the points [-]
   Array<double> damage_shown;   ///< largest damage over the points [-]
+  [[nodiscard]] int n_corners() const { return corners_per(section.kind); }
   [[nodiscard]] Index n_blocks() const { return blocks_for(n_elements); }
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
@@ -68,18 +70,18 @@ struct ShellBlocks {
 inline constexpr Index shell_chunk = 512;
 
 /// Sets a block up, stress-free in the positions at hand.
-/// connectivity: 4 node indices an element, counter-clockwise seen from the positive side; a
-/// triangle repeats its last node. x: positions of the nodes [m].
-/// Needs thickness > 0, 1 to 7 points. Throws std::invalid_argument that names the element where
-/// one has no area.
+/// connectivity: 4 (triangles: 3) node indices an element, counter-clockwise seen from the positive
+/// side. x: positions of the nodes [m]. fibre: as of fibres_of(), as many as there are indices;
+/// none: those of these elements alone. Needs thickness > 0, 1 to 7 points. Throws
+/// std::invalid_argument that names the element where one has no area.
 ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const Line> x,
                             const ElasticPlastic& material, const ShellSection& section,
-                            Index chunk = shell_chunk);
+                            Index chunk = shell_chunk, std::span<const Vec3> fibre = {});
 
-/// Adds the mass (rho t A/4) and the rotary inertia (mass times alpha) of each element to its
-/// corners: nodes.x.w and nodes.torque.w. alpha = max(t^2/12, A/8) replaces the true t^2/12 of thin
-/// shells, so that rotations do not limit the step; what it adds acts on wave lengths of the size
-/// of an element only.
+/// Adds the mass (rho t A/4, /3) and the rotary inertia (mass times alpha) of each element to its
+/// corners: nodes.x.w and nodes.torque.w. alpha = max(t^2/12, A/8), of triangles A/6, replaces the
+/// true t^2/12 of thin shells, so that rotations do not limit the step; what it adds acts on wave
+/// lengths of the size of an element only.
 void add_shell_masses(const ShellBlock& block, Nodes& nodes);
 
 /// One pass: stress to n, forces at n added to nodes.f and nodes.torque (see shell_kernel.hpp).
@@ -94,7 +96,8 @@ double stable_step(const ShellBlock& block);
 std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes, std::size_t n);
 
 /// Fills stress_shown from the state: global xx, yy, zz, xy, yz, xz at the middle surface (the
-/// point there, or the mean of the two nearest), in the frame at positions x [m].
+/// point there, or the mean of the two nearest), mean over the points of the plane, in the frame at
+/// positions x [m].
 void show_stress(ShellBlock& block, std::span<const Line> x);
 
 /// Fills plastic_shown from the state. Needs a plastic material.
@@ -106,7 +109,8 @@ void show_damage(ShellBlock& block);
 /// How many elements have left the block with their last point failed.
 Index n_eroded(const ShellBlock& block);
 
-/// Stress of point k (0 is the lowest) of element e in the frame of the element: xx, yy, xy [Pa].
+/// Stress of point k (0 is the lowest; points of the plane one after the other) of element e in the
+/// frame of the element: xx, yy, xy [Pa].
 PlaneStress<double> stress_at(const ShellBlock& block, Index e, int k);
 
 }  // namespace gannet

@@ -43,9 +43,10 @@ std::vector<Key> shell_keys() {
        .limits = between(1, max_shell_points)},
       {.name = "formulation",
        .kind = Kind::choice,
-       .text = "element",
+       .text = "belytschko_lin_tsay: one point in the plane, fast, with hourglass control; "
+               "fully_integrated: 2 x 2 points and assumed shear, accurate",
        .fallback = "belytschko_lin_tsay",
-       .choices = {"belytschko_lin_tsay"}},
+       .choices = {"belytschko_lin_tsay", "fully_integrated"}},
       {.name = "hourglass",
        .kind = Kind::map,
        .text = "control of the modes that one point of integration does not see",
@@ -85,6 +86,14 @@ void add_parts(const Keys& root, Draft& draft) {
 ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
   ShellSection section;
   section.thickness = shell.number("thickness");
+  if (shell.has("formulation") && shell.word("formulation") == "fully_integrated") {
+    section.kind = ShellKind::quad;
+    for (const char* key : {"hourglass", "warping"}) {
+      if (shell.given(key)) {
+        shell.complain(key, "has no meaning where shells are fully integrated");
+      }
+    }
+  }
   section.points = shell.has("points") ? shell.integer("points") : (material.plastic() ? 5 : 3);
   if (shell.has("hourglass")) {
     const Keys hourglass = shell.map("hourglass");
@@ -191,7 +200,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .reads = {"x", "v", "omega"},
                      .writes = {"f", "torque"},
                      .plastic = block.material.plastic(),
-                     .hourglass = true,
+                     .hourglass = block.section.kind == ShellKind::one_point,
                      .eroded = block.material.failure.given()};
     part.pass = [&scene, &block](const Step& step) {
       return shell_pass(block, scene.nodes, step.dt_old);

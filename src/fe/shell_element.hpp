@@ -204,16 +204,6 @@ struct ShellResultants {
   Vec8 Q[5];
 };
 
-/// Sums over elements, kept by lane until the end of a chunk.
-struct ShellLaneSums {
-  Vec8 internal = Vec8(0.0);
-  Vec8 plastic = Vec8(0.0);
-  Vec8 hourglass = Vec8(0.0);
-  Vec8 eroded = Vec8(0.0);
-  Vec8 omega2 = Vec8(0.0);
-  Vec8 block = Vec8(-1.0);
-};
-
 /// Stress from n-1 to n at every point through the thickness; fills the resultants of the section
 /// and adds the work per area: w = sum (sigma(n-1) + sigma(n))/2 . d eps.
 /// state: first value of the block. t: thickness [m]. work, plastic_work: [J/m^2].

@@ -8,7 +8,7 @@
 namespace gannet::GANNET_ISA_NS {
 
 /// What the points through the thickness come to.
-struct GeneralStress {
+struct ColumnStress {
   J2Work<Vec8> work;  ///< per area [J/m^2]
   Vec8 growth;        ///< mean strain increment through the thickness
   Vec8 least_damage;  ///< smallest over the points
@@ -20,7 +20,7 @@ __attribute__((noinline)) inline void general_shell_stress(const ShellConstants&
                                                            const ShellLayout& layout, double dt,
                                                            double* state, const ShellIncrements& d,
                                                            const Vec8& t, ShellResultants& r,
-                                                           GeneralStress& out) {
+                                                           ColumnStress& out) {
   const Vec8 zero(0.0);
   r.nxx = r.nyy = r.nxy = r.mxx = r.myy = r.mxy = zero;
   out = {{zero, zero, zero}, zero, Vec8(1.0)};
@@ -70,6 +70,36 @@ __attribute__((noinline)) inline void general_shell_stress(const ShellConstants&
     r.myy += Wz * sigma.yy;
     r.mxy += Wz * sigma.xy;
   }
+}
+
+/// Stress from n-1 to n at the points through the thickness over one point of the plane, of
+/// whatever law: see shell_stress() and general_shell_stress().
+template <PointLaw law>
+GANNET_INLINE void column_stress(const ShellConstants& c, const ShellLayout& layout, double dt,
+                                 double* state, const ShellIncrements& d, Vec8 t,
+                                 ShellResultants& r, ColumnStress& out) {
+  if constexpr (law == PointLaw::general) {
+    general_shell_stress(c, layout, dt, state, d, t, r, out);
+  } else {
+    out.growth = shell_stress<law == PointLaw::linear_hardening>(
+        c, layout, state, d, t, r, out.work.internal, out.work.plastic);
+  }
+}
+
+/// Where all points over one of the plane have failed, the transverse shear there falls to zero
+/// with the rest. shear: its state. Takes back the half of the work that its forces of this level
+/// would have done.
+GANNET_INLINE void drop_failed_shear(double* shear, const ShellIncrements& d, Vec8 least_damage,
+                                     ShellResultants& r, Vec8& work) {
+  const auto carries = less(least_damage, Vec8(1.0));
+  const Vec8 zero(0.0);
+  const auto lost = [&](Vec8 a) { return select(carries, zero, a); };
+  const auto left = [&](Vec8 a) { return select(carries, a, zero); };
+  work -= Vec8(0.5) * (lost(r.nxz) * d.xz + lost(r.nyz) * d.yz);
+  r.nxz = left(r.nxz);
+  r.nyz = left(r.nyz);
+  left(Vec8::load(shear)).store(shear);
+  left(Vec8::load(shear + 8)).store(shear + 8);
 }
 
 /// Takes elements out whose points have all failed: transverse shear and hourglass forces of this

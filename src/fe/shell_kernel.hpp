@@ -10,6 +10,15 @@ namespace gannet {
 
 inline constexpr int max_shell_points = 7;
 
+/// What kind of element a block is made of.
+enum class ShellKind {
+  one_point,  ///< Belytschko, Lin and Tsay: shell_element.hpp
+  quad,       ///< 2 x 2 points in the plane: shell_assumed.hpp
+  triangle    ///< likewise, one point
+};
+
+constexpr int corners_per(ShellKind kind) { return kind == ShellKind::triangle ? 3 : 4; }
+
 /// What the elements of one block have in common.
 struct ShellConstants {
   PlaneStressLaw law;
@@ -28,7 +37,7 @@ struct ShellConstants {
   double hourglass_bending = 0;
   double inverse_wave_speed = 0;  ///< for the viscous form: sqrt(rho (1 - nu^2) / E) [s/m]
   double membrane_modulus = 0;    ///< largest eigenvalue of C: E / (1 - |nu|) [Pa]
-  double nodal_mass_factor = 0;   ///< rho t0 / 4 [kg/m^2]: nodal mass = factor * A0
+  double nodal_mass_factor = 0;   ///< rho t0 / corners [kg/m^2]: nodal mass = factor * A0
   double thickness = 0;           ///< t0 [m]
 };
 
@@ -37,14 +46,24 @@ struct ShellConstants {
 struct ShellLayout {
   int n_points = 5;
   int per_point = 4;  ///< sigma_xx, sigma_yy, sigma_xy [Pa] and, but where elastic, the history
-  bool has_fibres = false;  ///< the warping correction, see shell_element.hpp
-  [[nodiscard]] int shear() const { return n_points * per_point; }    ///< sigma_xz, sigma_yz [Pa]
-  [[nodiscard]] int hourglass() const { return shear() + 2; }         ///< Q1..Q3 [N], Q4, Q5 [N m]
-  [[nodiscard]] int thickness() const { return hourglass() + 5; }     ///< t [m]; 0 in empty lanes
+  bool has_fibres = false;  ///< always but in the one-point element without warping correction
+  ShellKind kind = ShellKind::one_point;
+  [[nodiscard]] int in_plane() const { return kind == ShellKind::quad ? 4 : 1; }
+  /// The points above point g of the plane.
+  [[nodiscard]] int stress(int g) const { return g * n_points * per_point; }
+  /// sigma_xz, sigma_yz of the points of the plane [Pa]
+  [[nodiscard]] int shear() const { return stress(in_plane()); }
+  /// One point: Q1..Q3 [N], Q4, Q5 [N m]; triangle: G sum g_ij [N/m]
+  [[nodiscard]] int hourglass() const { return shear() + 2 * in_plane(); }
+  [[nodiscard]] int n_hourglass() const {
+    return kind == ShellKind::one_point ? 5 : (kind == ShellKind::triangle ? 1 : 0);
+  }
+  /// t [m]; 0 in empty lanes and in elements that have failed
+  [[nodiscard]] int thickness() const { return hourglass() + n_hourglass(); }
   [[nodiscard]] int inverse_area() const { return thickness() + 1; }  ///< 1/A0 [1/m^2]
-  /// tx, ty of the four corners [-], where there are fibres
+  /// tx, ty of the corners [-], where there are fibres
   [[nodiscard]] int fibres() const { return inverse_area() + 1; }
-  [[nodiscard]] int n_values() const { return fibres() + (has_fibres ? 8 : 0); }
+  [[nodiscard]] int n_values() const { return fibres() + (has_fibres ? 2 * corners_per(kind) : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
@@ -56,7 +75,7 @@ struct ShellPass {
   const double* omega = nullptr;          ///< lines: angular velocity at n-1/2 [rad/s]
   double* f = nullptr;                    ///< lines: forces are added [N]
   double* torque = nullptr;               ///< lines: moments are added [N m]
-  const std::int32_t* corners = nullptr;  ///< 32 a block: corner a of lane l at 8 a + l
+  const std::int32_t* corners = nullptr;  ///< of a block in a row: corner a of lane l at 8 a + l
   double* state = nullptr;
   double dt = 0;  ///< t(n) - t(n-1) [s]
 };
@@ -74,12 +93,18 @@ struct ShellSums {
 /// One fused pass over blocks [begin, end): strain increment from v(n-1/2) in the midpoint
 /// configuration x(n) - v dt/2, stress to n, forces at the geometry of n added to f and torque.
 /// Needs valid node indices in every lane (empty lanes repeat an element and have thickness 0),
-/// arrays aligned to 64 bytes. Throws nothing. The element: shell_element.hpp.
+/// arrays aligned to 64 bytes. Throws nothing. The elements: shell_element.hpp, shell_assumed.hpp.
 namespace avx2 {
 void shell_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
-}
+void shell_quad_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
+void shell_triangle_force(const ShellPass& pass, std::int32_t begin, std::int32_t end,
+                          ShellSums& sums);
+}  // namespace avx2
 namespace avx512 {
 void shell_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
-}
+void shell_quad_force(const ShellPass& pass, std::int32_t begin, std::int32_t end, ShellSums& sums);
+void shell_triangle_force(const ShellPass& pass, std::int32_t begin, std::int32_t end,
+                          ShellSums& sums);
+}  // namespace avx512
 
 }  // namespace gannet

@@ -91,6 +91,10 @@ Sample plane_sample() {
   return {[] { return std::make_unique<WatchedRun>(plane_block); }, 150, false};
 }
 
+Sample shells_sample(const std::string& formulation) {
+  return {[formulation] { return std::make_unique<WatchedRun>(shells(formulation)); }, 150, false};
+}
+
 Sample lines_sample() {
   return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
 }
@@ -330,6 +334,12 @@ TEST_CASE("same bits: metals that warm, turn round and fail, 1, 2, 3 and 5 threa
 TEST_CASE("same bits: plane solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
   check_threads(plane_sample());
   check_restart(plane_sample());
+}
+
+TEST_CASE("same bits: shells that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  const std::string formulation = GENERATE("belytschko_lin_tsay", "fully_integrated");
+  check_threads(shells_sample(formulation));
+  check_restart(shells_sample(formulation));
 }
 
 TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",

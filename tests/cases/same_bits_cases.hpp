@@ -183,6 +183,21 @@ effects:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// A roof of two slopes that yields as it is dented, 2,000 shells: warped, folded, thinning.
+inline std::string shells(const std::string& formulation) {
+  return R"case(gannet: 1
+materials: {skin: {card: al_6061_t6}}
+parts:
+  roof:
+    shell: {material: skin, thickness: 3 mm, thickness_change: yes, formulation: )case" +
+         formulation + R"case(}
+    shape: {wedge: {deadrise: 10 deg, half_breadth: 0.5 m, length: 1 m, elements: [25, 40]}}
+    initial_velocity: ["3*sin(9*y)", "5*cos(7*x)", "60*cos(4*x)*cos(3*y)"]
+boundaries: {edge: {nodes: {edge_of: roof}, fix: [x, y, z]}}
+output: {until: 10 s, checkpoint: never}
+)case";
+}
+
 /// A damped rope that swings along itself and breaks in places, and a beam that is bent and
 /// twisted: three chunks of each.
 inline const std::string rope_and_beam = R"case(gannet: 1

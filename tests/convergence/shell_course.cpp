@@ -165,6 +165,12 @@ TEST_CASE("shell course: one-point shells, up to 32", "[.][convergence_long]") {
     run_course(obstacle, {.points = 2}, "one point", true);
 }
 
+TEST_CASE("shell course: fully integrated shells", "[convergence]") {
+  for (const Obstacle& obstacle : obstacles()) {
+    run_course(obstacle, {.kind = ShellKind::quad, .points = 2}, "full", false);
+  }
+}
+
 TEST_CASE("shell course: the warping correction is what a twisted beam needs", "[convergence]") {
   const ShellSection without{.points = 2, .warping = false};
   const double with_it = twisted_beam(16, {.points = 2}, 2) / 0.005424;

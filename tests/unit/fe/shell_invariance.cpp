@@ -43,7 +43,7 @@ void turn(Sheet& s, const Vec3& axis, double angle, double dt, double omega) {
 double largest_in_plane(const ShellBlock& block) {
   double most = 0;
   for (Index e = 0; e < block.n_elements; ++e) {
-    for (int k = 0; k < block.layout.n_points; ++k) {
+    for (int k = 0; k < block.layout.in_plane() * block.layout.n_points; ++k) {
       const PlaneStress<double> sigma = stress_at(block, e, k);
       most = std::max({most, std::abs(sigma.xx), std::abs(sigma.yy), std::abs(sigma.xy)});
     }
@@ -54,7 +54,7 @@ double largest_in_plane(const ShellBlock& block) {
 double largest_shear(const ShellBlock& block) {
   double most = 0;
   for (Index e = 0; e < block.n_elements; ++e) {
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 2 * block.layout.in_plane(); ++k) {
       most = std::max(most, std::abs(block.value(e, block.layout.shear() + k)));
     }
   }
@@ -67,18 +67,22 @@ TEST_CASE("shell: rigid rotation of warped elements strains nothing", "[fe][conv
   const Vec3 axis = Vec3(1, 2, -0.5).normalized();
   const double dt = 1e-4;
   for (const Isa set : sets()) {
-    const bool warping = GENERATE(false, true);
+    const ShellSection section =
+        GENERATE(ShellSection{.thickness = 0.01, .warping = false}, ShellSection{.thickness = 0.01},
+                 ShellSection{.kind = ShellKind::quad, .thickness = 0.01},
+                 ShellSection{.kind = ShellKind::triangle, .thickness = 0.01});
     // What is left after a turn by 1 rad, nodes turning at spin(angle of a step)/dt.
     const auto left_after = [&](int n_steps, auto&& spin) {
       Sheet s = crumpled(4, 3, 1);
-      ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.01, .warping = warping});
+      ShellBlock block = block_of(s, elastic_steel, section);
       for (int k = 0; k < n_steps; ++k) {
         turn(s, axis, 1.0 / n_steps, dt, spin(1.0 / n_steps) / dt);
         clear_forces(s.nodes);
         shell_pass(block, s.nodes, dt, set);
       }
       for (Index e = 0; e < block.n_elements; ++e) {
-        for (int q = 0; q < 2; ++q) {  // forces of the hourglass modes against E t A^(1/2)
+        const int n_forces = section.kind == ShellKind::one_point ? 2 : 0;
+        for (int q = 0; q < n_forces; ++q) {  // forces of the hourglass modes against E t A^(1/2)
           CHECK(std::abs(block.value(e, block.layout.hourglass() + q)) < 1e-13 * 210e9 * 1e-3);
         }
       }
@@ -117,8 +121,9 @@ TEST_CASE("shell: a node that spins about its fibre strains nothing", "[fe]") {
 }
 
 TEST_CASE("shell: stress and forces turn with the body", "[fe]") {
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
   Sheet s = crumpled(3, 3, 2);
-  ShellBlock block = block_of(s, steel, {.thickness = 0.01});
+  ShellBlock block = block_of(s, steel, {.kind = kind, .thickness = 0.01});
   random_motion(s, 3, 1, 1);
   const double dt = 1e-5;
   for (int k = 0; k < 3; ++k) shell_pass(block, s.nodes, dt);
@@ -155,11 +160,12 @@ TEST_CASE("shell: stress and forces turn with the body", "[fe]") {
 
 TEST_CASE("shell: forces and moments of warped elements balance", "[fe]") {
   for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
     const bool warping = GENERATE(false, true);
     for (const auto form : {HourglassForm::stiffness, HourglassForm::viscous}) {
       Sheet s = crumpled(5, 5, 4);
-      ShellBlock block =
-          block_of(s, steel, {.thickness = 0.01, .hourglass = form, .warping = warping});
+      ShellBlock block = block_of(
+          s, steel, {.kind = kind, .thickness = 0.01, .hourglass = form, .warping = warping});
       random_motion(s, 5, 2, 20);
       const double dt = 5e-6;
       for (int k = 0; k < 20; ++k) {
@@ -217,9 +223,11 @@ double free_step(ShellBlock& block, Nodes& nodes, double dt_old) {
 }  // namespace
 
 TEST_CASE("shell: a warped sheet that flies and crumples keeps both momenta", "[fe]") {
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
   const bool plastic = GENERATE(false, true);
   Sheet s = crumpled(8, 6, 31);
-  ShellBlock block = block_of(s, plastic ? steel : elastic_steel, {.thickness = 0.005});
+  ShellBlock block =
+      block_of(s, plastic ? steel : elastic_steel, {.kind = kind, .thickness = 0.005});
   add_shell_masses(block, s.nodes);
   random_motion(s, 32, 20, 100);
   for (Line& v : s.nodes.v) v.x += 30;
@@ -238,8 +246,9 @@ TEST_CASE("shell: a warped sheet that flies and crumples keeps both momenta", "[
 TEST_CASE("shell: forces are the transpose of the strains", "[fe]") {
   // From rest, in a step too small to move the nodes: energy of all kinds = -(f.v + m.omega) dt/2.
   for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
     Sheet s = crumpled(3, 3, 6, 0.03);
-    ShellBlock block = block_of(s, elastic_steel, {.thickness = 0.05});
+    ShellBlock block = block_of(s, elastic_steel, {.kind = kind, .thickness = 0.05});
     random_motion(s, 7, 1, 10);
     const double dt = 1e-14;
     const ElementWork work = shell_pass(block, s.nodes, dt, set);
@@ -248,7 +257,8 @@ TEST_CASE("shell: forces are the transpose of the strains", "[fe]") {
       power += xyz(s.nodes.f[i]).dot(xyz(s.nodes.v[i])) +
                xyz(s.nodes.torque[i]).dot(xyz(s.nodes.omega[i]));
     }
-    CHECK(work.hourglass > 0);
+    CHECK((kind != ShellKind::one_point || work.hourglass > 0));
+    CHECK(work.internal > 0);
     CHECK(work.internal + work.hourglass == Approx(-0.5 * power * dt).epsilon(1e-11));
   }
 }
@@ -292,23 +302,32 @@ double bound_over_frequency(Sheet s, const ElasticPlastic& m, const ShellSection
 }  // namespace
 
 TEST_CASE("shell: the frequency bound holds and is close", "[fe]") {
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
   const bool warping = GENERATE(false, true);
+  if (kind != ShellKind::one_point && !warping) return;
   const double noise = GENERATE(0.005, 0.025);  // of corners of a square of 0.1
+  const bool thin = GENERATE(false, true);
   double tightest = 10;
   double loosest = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    const double thickness = seed % 2 == 0 ? 0.005 : 0.08;
+    const double thickness = thin ? (seed % 2 == 0 ? 0.005 : 0.02) : 0.08;
     const double nu = seed % 3 == 0 ? 0.0 : 0.33;
-    const double ratio = bound_over_frequency(crumpled(1, 1, 100 + seed, seed == 0 ? 0.0 : noise),
-                                              {.rho = 7800, .E = 210e9, .nu = nu},
-                                              {.thickness = thickness, .warping = warping});
+    const double ratio = bound_over_frequency(
+        crumpled(1, 1, 100 + seed, seed == 0 ? 0.0 : noise), {.rho = 7800, .E = 210e9, .nu = nu},
+        {.kind = kind, .thickness = thickness, .warping = warping});
     tightest = std::min(tightest, ratio);
     loosest = std::max(loosest, ratio);
   }
-  CAPTURE(warping, noise, tightest, loosest);
+  CAPTURE(thin);
+  INFO("element " << static_cast<int>(kind) << ", warping " << warping << ", noise " << noise
+                  << ": bound over frequency " << tightest << " to " << loosest);
   CHECK(tightest >= 1 - 1e-12);
-  // Up to 12 % of the step given away, 25 % by fibres that lean by half their length.
-  CHECK(loosest < (noise > 0.01 && warping ? 1.8 : 1.35));
+  // Up to 12 % of the step given away, 25 % by fibres that lean by half their length; by the others
+  // 7 % where the shell is thinner than a fifth of an element (22 % with nu = 0), more where it is
+  // nearly as thick as wide.
+  if (kind == ShellKind::one_point) CHECK(loosest < (noise > 0.01 && warping ? 1.8 : 1.35));
+  if (kind == ShellKind::quad && noise < 0.01) CHECK(loosest < (thin ? 1.6 : 1.9));
+  if (kind == ShellKind::triangle && noise < 0.01) CHECK(loosest < (thin ? 1.6 : 2.3));
 }
 
 TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {

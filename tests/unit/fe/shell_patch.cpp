@@ -25,6 +25,12 @@ Sheet macneal_harder() {
 const ElasticPlastic patch_material{.rho = 1, .E = 1e6, .nu = 0.25};
 const ShellSection patch_section{.thickness = 0.001, .points = 5};
 
+ShellSection patch_section_of(ShellKind kind) {
+  ShellSection section = patch_section;
+  section.kind = kind;
+  return section;
+}
+
 /// So small a step that the midpoint configuration is the given one to 1e-15; strains follow from
 /// velocities, so their relative accuracy does not suffer.
 constexpr double dt = 1e-12;
@@ -33,15 +39,16 @@ constexpr double dt = 1e-12;
 
 TEST_CASE("shell: membrane patch test on a distorted mesh", "[fe]") {
   for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
     Sheet s = macneal_harder();
-    ShellBlock block = block_of(s, patch_material, patch_section);
+    ShellBlock block = block_of(s, patch_material, patch_section_of(kind));
     for (std::size_t i = 0; i < s.size(); ++i) {
       const Vec3 x = xyz(s.nodes.x[i]);
       set_xyz(s.nodes.v[i], 1e-3 * Vec3(x.x() + x.y() / 2, x.y() + x.x() / 2, 0));
     }
     shell_pass(block, s.nodes, dt, set);
     show_stress(block, s.nodes.x);
-    for (std::size_t e = 0; e < 5; ++e) {
+    for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_elements); ++e) {
       const double* sigma = &block.stress_shown[6 * e];
       CHECK(sigma[0] / dt == Approx(4000.0 / 3).epsilon(1e-10));
       CHECK(sigma[1] / dt == Approx(4000.0 / 3).epsilon(1e-10));
@@ -99,6 +106,88 @@ TEST_CASE("shell: constant curvature on parallelograms, with twist", "[fe]") {
   }
 }
 
+TEST_CASE("shell: bending patch test on a distorted mesh", "[fe]") {
+  for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::quad, ShellKind::triangle);
+    Sheet s = macneal_harder();
+    ShellBlock block = block_of(s, patch_material, patch_section_of(kind));
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Vec3 x = xyz(s.nodes.x[i]);
+      const double w = 0.5e-3 * (x.x() * x.x() + x.x() * x.y() + x.y() * x.y());
+      set_xyz(s.nodes.v[i], {0, 0, w});
+      set_xyz(s.nodes.omega[i], 0.5e-3 * Vec3(x.x() + 2 * x.y(), -(2 * x.x() + x.y()), 0));
+    }
+    shell_pass(block, s.nodes, dt, set);
+    // At the upper surface sxx = syy = -2/3 and sxy = -0.2 in whatever frame: their sum and
+    // determinant.
+    const double scale = 1 / (block.constants.point[4] * dt);
+    for (Index e = 0; e < block.n_elements; ++e) {
+      for (int g = 0; g < block.layout.in_plane(); ++g) {
+        const PlaneStress<double> sigma = stress_at(block, e, 5 * g + 4);
+        CHECK((sigma.xx + sigma.yy) * scale == Approx(-4.0 / 3).epsilon(1e-10));
+        CHECK((sigma.xx * sigma.yy - sigma.xy * sigma.xy) * scale * scale ==
+              Approx(4.0 / 9 - 0.04).epsilon(1e-10));
+        // No transverse shear (G w' = 4e5 1e-4 is the scale).
+        for (int d = 0; d < 2; ++d) {
+          CHECK(std::abs(block.value(e, block.layout.shear() + 2 * g + d)) / dt < 1e-10 * 40);
+        }
+      }
+    }
+    for (std::size_t i = 4; i < 8; ++i) {
+      CHECK(xyz(s.nodes.torque[i]).norm() / dt < 1e-10 * 1.1e-8);
+      CHECK(xyz(s.nodes.f[i]).norm() / dt < 1e-10 * 1.1e-7);
+    }
+  }
+}
+
+TEST_CASE("shell: shear patch test on a distorted mesh", "[fe]") {
+  for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::quad, ShellKind::triangle);
+    Sheet s = macneal_harder();
+    ShellBlock block = block_of(s, patch_material, patch_section_of(kind));
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Vec3 x = xyz(s.nodes.x[i]);
+      set_xyz(s.nodes.v[i], {0, 0, 1e-3 * (3 * x.x() + 2 * x.y())});
+      set_xyz(s.nodes.omega[i], 1e-3 * Vec3(-2, -1, 0));  // gamma = (3 - 1, 2 + 2) 1e-3
+    }
+    shell_pass(block, s.nodes, dt, set);
+    const double tau = 4e5 * 1e-3 * std::sqrt(20.0);
+    for (Index e = 0; e < block.n_elements; ++e) {
+      for (int g = 0; g < block.layout.in_plane(); ++g) {
+        const int first = block.layout.shear() + 2 * g;
+        CHECK(std::hypot(block.value(e, first), block.value(e, first + 1)) / dt ==
+              Approx(tau).epsilon(1e-10));
+        CHECK(std::abs(stress_at(block, e, 5 * g + 4).xx) / dt < 1e-10 * tau);
+      }
+      if (kind == ShellKind::triangle) {  // the shear that turns is zero
+        CHECK(std::abs(block.value(e, block.layout.hourglass())) / dt < 1e-10 * tau * 0.1);
+      }
+    }
+    for (std::size_t i = 4; i < 8; ++i) {
+      CHECK(xyz(s.nodes.f[i]).norm() / dt < 1e-10 * tau * 0.001 * 0.1);
+    }
+  }
+}
+
+TEST_CASE("shell: a square with 2 x 2 points bends in its plane as a beam", "[fe]") {
+  // Strain eps = k y along x, lateral strain free: energy E k^2 t/2 int y^2 = E k^2 t a^4/24. The
+  // corners move by u = k x y; v = -k (x^2 + nu y^2)/2 is the same at all of them.
+  const double a = 0.1;
+  for (const Isa set : sets()) {
+    Sheet s = grid(1, 1, [&](int i, int j) { return Vec3(a * i - a / 2, a * j - a / 2, 0); });
+    ShellBlock block =
+        block_of(s, patch_material, {.kind = ShellKind::quad, .thickness = 0.002, .points = 2});
+    const double k = 1e-3;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 x = xyz(s.nodes.x[i]);
+      set_xyz(s.nodes.v[i], {k * x.x() * x.y(), 0, 0});
+    }
+    const ElementWork work = shell_pass(block, s.nodes, dt, set);
+    CHECK(work.internal / (dt * dt) ==
+          Approx(1e6 * k * k * 0.002 * a * a * a * a / 24).epsilon(1e-10));
+  }
+}
+
 TEST_CASE("shell: hourglass stiffness of a square by hand", "[fe]") {
   // a = 0.1, BB = 2/a^2, A = a^2, r = 0.03: K_membrane = r E t/4, q = 4 v dt, f = -+ K q.
   const ElasticPlastic m{.rho = 1, .E = 1e6, .nu = 0.25};
@@ -137,4 +226,13 @@ TEST_CASE("shell: mass and rotary inertia by hand", "[fe]") {
   CHECK(s.nodes.x[0].w == Approx(corner).epsilon(1e-14));
   CHECK(s.nodes.x[1].w == Approx(2 * corner).epsilon(1e-14));
   CHECK(s.nodes.torque[0].w == Approx(corner * 0.02 / 8).epsilon(1e-14));  // A/8 > t^2/12
+  // Triangles: a third of the mass at each corner, A/6.
+  Sheet one = grid(1, 1, [](int i, int j) { return Vec3(0.1 * i, 0.2 * j, 0); });
+  add_shell_masses(block_of(one, {.rho = 2700, .E = 70e9, .nu = 0.3},
+                            {.kind = ShellKind::triangle, .thickness = 0.01}),
+                   one.nodes);
+  const double third = 2700 * 0.01 * 0.01 / 3;
+  CHECK(one.nodes.x[1].w == Approx(third).epsilon(1e-14));
+  CHECK(one.nodes.x[0].w == Approx(2 * third).epsilon(1e-14));
+  CHECK(one.nodes.torque[1].w == Approx(third * 0.01 / 6).epsilon(1e-14));
 }

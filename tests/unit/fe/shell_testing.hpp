@@ -70,9 +70,21 @@ inline void clear_forces(Nodes& nodes) {
   for (Line& m : nodes.torque) set_xyz(m, Vec3::Zero());
 }
 
+/// The quads, each cut along its diagonal 1-3.
+inline std::vector<Index> triangles_of(const Sheet& s) {
+  std::vector<Index> triangles;
+  for (std::size_t k = 0; k < s.quads.size(); k += 4) {
+    for (const std::size_t a : {0, 1, 2, 0, 2, 3}) triangles.push_back(s.quads[k + a]);
+  }
+  return triangles;
+}
+
+/// A block of the quads, or of twice as many triangles.
 inline ShellBlock block_of(const Sheet& s, const ElasticPlastic& material,
                            const ShellSection& section, Index chunk = shell_chunk) {
-  return make_shell_block(s.quads, s.nodes.x, material, section, chunk);
+  const bool triangles = section.kind == ShellKind::triangle;
+  return make_shell_block(triangles ? triangles_of(s) : s.quads, s.nodes.x, material, section,
+                          chunk);
 }
 
 }  // namespace gannet::testing

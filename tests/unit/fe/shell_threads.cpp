@@ -20,10 +20,10 @@ struct Result {
   double omega2 = 0;
 };
 
-Result run(int nx, int ny, int threads, Isa set, Index chunk = 64) {
+Result run(int nx, int ny, int threads, Isa set, ShellKind kind, Index chunk = 64) {
   set_threads(threads);
   Sheet s = crumpled(nx, ny, 11, 0.01);
-  ShellBlock block = block_of(s, yielding_steel, {.thickness = 0.01}, chunk);
+  ShellBlock block = block_of(s, yielding_steel, {.kind = kind, .thickness = 0.01}, chunk);
   random_motion(s, 12, 2, 20);
   Result r;
   const double dt = 5e-6;
@@ -51,11 +51,12 @@ bool same_bits(const Array<T>& a, const Array<T>& b) {
 }  // namespace
 
 TEST_CASE("shell: the same bits on 1, 2, 3 and 5 threads", "[fe][threads]") {
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
   for (const Isa set : sets()) {
-    const Result one = run(37, 29, 1, set);
+    const Result one = run(37, 29, 1, set, kind);
     CHECK(one.work.plastic > 0);
     for (const int threads : {2, 3, 5}) {
-      const Result many = run(37, 29, threads, set);
+      const Result many = run(37, 29, threads, set, kind);
       CHECK(same_bits(one.f, many.f));
       CHECK(same_bits(one.torque, many.torque));
       CHECK(same_bits(one.state, many.state));
@@ -69,12 +70,13 @@ TEST_CASE("shell: the same bits on 1, 2, 3 and 5 threads", "[fe][threads]") {
 
 TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
   // A strip of n elements, n = 1..17, in one go against the same strip element by element.
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad);
   for (const Isa set : sets()) {
     for (int n = 1; n <= 17; ++n) {
       Sheet s = crumpled(n, 1, 21, 0.01);
       random_motion(s, 22, 2, 20);
       const double dt = 5e-6;
-      ShellBlock all = block_of(s, yielding_steel, {.thickness = 0.01});
+      ShellBlock all = block_of(s, yielding_steel, {.kind = kind, .thickness = 0.01});
       const ElementWork together = shell_pass(all, s.nodes, dt, set);
       const Array<Line> f = s.nodes.f;
       clear_forces(s.nodes);
@@ -82,7 +84,8 @@ TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
       double omega2 = 0;
       for (int e = 0; e < n; ++e) {
         const std::vector<Index> quad(s.quads.begin() + 4 * e, s.quads.begin() + 4 * e + 4);
-        ShellBlock single = make_shell_block(quad, s.nodes.x, yielding_steel, {.thickness = 0.01});
+        ShellBlock single =
+            make_shell_block(quad, s.nodes.x, yielding_steel, {.kind = kind, .thickness = 0.01});
         internal += shell_pass(single, s.nodes, dt, set).internal;
         omega2 = std::max(omega2, single.omega2);
         for (int k = 0; k < all.layout.n_values(); ++k) {
@@ -100,8 +103,9 @@ TEST_CASE("shell: blocks that are not full add nothing of their own", "[fe]") {
 
 TEST_CASE("shell: AVX2 and AVX-512 agree to rounding", "[fe]") {
   if (sets().size() < 2) return;
-  const Result a = run(21, 13, 1, Isa::avx2);
-  const Result b = run(21, 13, 1, Isa::avx512);
+  const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
+  const Result a = run(21, 13, 1, Isa::avx2, kind);
+  const Result b = run(21, 13, 1, Isa::avx512, kind);
   double scale = 0;
   double worst = 0;
   for (std::size_t i = 0; i < a.f.size(); ++i) {
