@@ -463,3 +463,50 @@ TEST_CASE("physics: a bar under a sudden pull at its end moves in a triangle", "
   CHECK(error[1] < 0.01);
   CHECK(error[2] < 0.8 * error[1]);
 }
+
+TEST_CASE("physics: a stressed beam that is turned a thousand times keeps its forces",
+          "[physics]") {
+  for (const int steps : {100, 1000}) {
+    const auto s = make_simulation_of_text(
+        "gannet: 1\n"
+        "materials: {steel: {density: 7800, young: 210 GPa, poisson: 0.3}}\n"
+        "parts: {rod: {beam: {material: steel, section: {rectangle: {width: 50 mm, height: 20 "
+        "mm}}}, shape: {polyline: {points: [[0, 0, 0], [0.2 m, 0, 0], [0.4 m, 0.05 m, 0], [0.5 m, "
+        "0.2 m, 0.1 m]], elements: 1}}}}\n"
+        "output: {until: 1 s}\n");
+    BeamBlock& block = s->scene.store.get<BeamBlocks>().list.front();
+    Nodes& nodes = s->scene.nodes;
+    // Strained by turning two of its nodes.
+    const auto spin = [&](std::size_t i, const Vec3& axis, double angle) {
+      for (Line& omega : nodes.omega) set_xyz(omega, Vec3::Zero());
+      set_xyz(nodes.omega[i], 2 * std::tan(0.5 * angle) * axis);
+      beam_pass(block, nodes, 1);
+      set_xyz(nodes.omega[i], Vec3::Zero());
+    };
+    spin(1, Vec3(1, 2, 2) / 3, 0.02);
+    spin(3, Vec3(2, -1, 2) / 3, 0.03);
+    beam_pass(block, nodes, 0);
+    const Array<double> start = block.forces;
+    const double angle = 2 * std::numbers::pi / steps;
+    const Vec3 axis = Vec3(1, -2, 2) / 3;
+    const double dt = 1e-3;
+    const Mat3 R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    double gain = 0;
+    for (int k = 0; k < 1000 * steps; ++k) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        set_xyz(nodes.x[i], R * xyz(nodes.x[i]));
+        set_xyz(nodes.omega[i], 2 * std::tan(0.5 * angle) / dt * axis);
+      }
+      gain += beam_pass(block, nodes, dt).internal;
+    }
+    double worst = 0;
+    double largest = 0;
+    for (std::size_t k = 0; k < start.size(); ++k) {
+      worst = std::max(worst, std::abs(block.forces[k] - start[k]));
+      largest = std::max(largest, std::abs(start[k]));
+    }
+    WARN(fmt::format("{} steps a turn: forces drift by {:.1e} of the largest, energy by {:.1e} J",
+                     steps, worst / largest, gain));
+    CHECK(worst < 1e-6 * largest);
+  }
+}

@@ -1,7 +1,9 @@
 // Whole runs of solids: the Taylor bar from its file, a bar that rings, elements that collapse.
 #include <algorithm>
 #include <numbers>
+#include <random>
 
+#include "../unit/fe/fe_testing.hpp"
 #include "fe/solid.hpp"
 #include "running.hpp"
 
@@ -188,5 +190,49 @@ TEST_CASE("physics: Cook's tapered panel in plane strain", "[physics]") {
                      100 * error[2], solid.coarsest, std::log2(error[1] / error[2])));
     CHECK(std::abs(error[2]) < solid.tolerance);
     CHECK(std::abs(error[2]) < std::abs(error[1]));
+  }
+}
+
+TEST_CASE("physics: a stressed solid that is turned a thousand times keeps its stress",
+          "[physics]") {
+  // Velocities are the chords of each turn by 2 pi/steps.
+  const int points = GENERATE(1, 8);
+  for (const int steps : {100, 1000}) {
+    testing::Solid s = testing::bricks({1, 1, 1}, [](int i, int j, int k) {
+      return Vec3(0.1 * i + 0.01 * j * k, 0.1 * j - 0.02 * k, 0.1 * k + 0.015 * i * j);
+    });
+    const ElasticPlastic soft{.rho = 1000, .E = 1e6, .nu = 0.25};
+    SolidBlock block =
+        make_solid_block(s.cells, s.nodes.x, soft,
+                         {.points = points, .linear_viscosity = 0, .quadratic_viscosity = 0});
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> u(-1, 1);
+    for (Line& v : s.nodes.v) set_xyz(v, Vec3(u(random), u(random), u(random)));
+    ElementWork work = solid_pass(block, s.nodes, 1e-4);
+    const double stored = work.internal + work.hourglass;
+    const Symmetric<double> before = stress_at(block, 0);
+    const Mat3 R =
+        Eigen::AngleAxisd(2 * std::numbers::pi / steps, Vec3(1, 2, 2) / 3).toRotationMatrix();
+    const double dt = 1e-3;
+    work = {};
+    for (int k = 0; k < 1000 * steps; ++k) {
+      for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3 x = xyz(s.nodes.x[i]);
+        set_xyz(s.nodes.v[i], (R * x - x) / dt);
+        set_xyz(s.nodes.x[i], R * x);
+      }
+      const ElementWork w = solid_pass(block, s.nodes, dt);
+      work.internal += w.internal;
+      work.hourglass += w.hourglass;
+    }
+    const Symmetric<double> now = stress_at(block, 0);
+    const Symmetric<double> d{now.xx - before.xx, now.yy - before.yy, now.zz - before.zz,
+                              now.xy - before.xy, now.yz - before.yz, now.zx - before.zx};
+    const double drift = std::sqrt(contraction(d, d) / contraction(before, before));
+    const double gain = std::abs(work.internal + work.hourglass) / stored;
+    WARN(fmt::format("{} points, {} steps a turn: stress drifts by {:.1e}, energy by {:.1e}",
+                     points, steps, drift, gain));
+    CHECK(drift < 1e-6);
+    CHECK(gain < 1e-6);
   }
 }
