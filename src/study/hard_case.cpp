@@ -187,10 +187,13 @@ Exact read_exact(const Keys& keys) {
 }
 
 std::string text_of(const Value& value) {
-  if (!value.is_list) return value.text;
+  if (!value.is_list && !value.is_map) return value.text;
   std::vector<std::string> items;
-  for (const Value& child : value.children) items.push_back(text_of(child));
-  return fmt::format("[{}]", fmt::join(items, ", "));
+  for (const Value& child : value.children) {
+    items.push_back(value.is_map ? child.name + ": " + text_of(child) : text_of(child));
+  }
+  const bool map = value.is_map;
+  return fmt::format("{}{}{}", map ? '{' : '[', fmt::join(items, ", "), map ? '}' : ']');
 }
 
 HardVariant read_variant(const Keys& keys) {
