@@ -59,8 +59,7 @@ void add_parts(const Keys& root, Draft& draft) {
 }
 
 BeamLaw read_law(const Keys& root, const Keys& beam, Scene& scene) {
-  const ElasticPlastic material =
-      read_elastic_plastic(root.map("materials").map(beam.word("material")));
+  const ElasticPlastic material = read_but_rubber(root, beam);
   if (material.plastic()) {
     scene.warnings.push_back(
         fmt::format("{}: beams stay elastic; the yield stress of '{}' is not "

@@ -96,8 +96,7 @@ bool read_stiffness(const Keys& root, const Keys& cable, TrussBlock& block) {
     block.mu = cable.number("mass_per_length");
     return true;
   }
-  const ElasticPlastic material =
-      read_elastic_plastic(root.map("materials").map(cable.word("material")));
+  const ElasticPlastic material = read_but_rubber(root, cable);
   block.EA = material.E * cable.number("area");
   block.mu = material.rho * cable.number("area");
   return true;

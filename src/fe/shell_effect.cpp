@@ -157,7 +157,7 @@ void state(const Keys& root, Scene& scene) {
     const int number = scene.part_number(keys.name());
     if (number < 0) continue;
     const Part& part = scene.parts[static_cast<std::size_t>(number)];
-    const ElasticPlastic material = read_elastic_plastic(root.map("materials").map(part.material));
+    const ElasticPlastic material = read_but_rubber(root, keys.map("shell"));
     const ShellSection section = read_section(keys.map("shell"), material);
     auto& blocks = scene.store.get<ShellBlocks>().list;
     try {

@@ -123,6 +123,8 @@ GANNET_INLINE void with_law(const ShellPass& pass, std::int32_t begin, std::int3
     case PointLaw::general:
       over_blocks<Element, PointLaw::general>(pass, begin, end, sums);
       return;
+    case PointLaw::hyperelastic:  // refused as the case is read
+      return;
   }
 }
 

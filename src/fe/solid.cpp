@@ -19,7 +19,12 @@ SolidConstants make_constants(const ElasticPlastic& material, const SolidSection
     c.j2 = j2_law(material);
     c.history = history_of(c.j2, 6);
   }
+  c.rubber = material.rubber;
   c.hourglass = section.hourglass_coefficient;
+  // Of rubber a multiple of its shear modulus, as of a metal: its bulk modulus would make the
+  // hourglass patterns far stiffer than bending is.
+  c.hourglass_modulus =
+      material.hyperelastic() ? 3.5 * c.law.shear : c.law.bulk + 4.0 / 3.0 * c.law.shear;
   c.rho0 = material.rho;
   c.smallest_ratio = section.smallest_ratio;
   c.inverse_wave_speed = std::sqrt(material.rho / (c.law.bulk + 4.0 / 3.0 * c.law.shear));
@@ -28,9 +33,31 @@ SolidConstants make_constants(const ElasticPlastic& material, const SolidSection
   return c;
 }
 
-}  // namespace
+/// Signs of xi, eta, zeta at the corners.
+constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-namespace {
+/// Keeps the coefficients of the positions at hand, also in the empty lanes. The two faces of a
+/// plane case are one unit apart.
+void keep_start(SolidBlock& block, std::span<const Line> x) {
+  for (Index e = 0; e < lanes * blocks_for(block.n_elements); ++e) {
+    for (int a = 0; a < 8; ++a) {
+      const int* s = sign[a];
+      const int pattern[7] = {
+          s[0], s[1], s[2], s[1] * s[2], s[2] * s[0], s[0] * s[1], s[0] * s[1] * s[2]};
+      const bool plane = block.layout.plane;
+      const Index node =
+          plane ? corner_of(block.corners, 4, e, a % 4) : corner_of(block.corners, 8, e, a);
+      Vec3 p = 0.125 * xyz(x[static_cast<std::size_t>(node)]);
+      if (plane) p.z() = 0.125 * 0.5 * s[2];
+      for (int k = 0; k < 7; ++k) {
+        for (int i = 0; i < 3; ++i) {
+          block.value(e, block.layout.start() + 3 * k + i) += pattern[k] * p[i];
+        }
+      }
+    }
+  }
+}
 
 double area_of(const SolidBlock& block, Index e, std::span<const Line> x) {
   const auto corner = [&](int k) {
@@ -43,9 +70,6 @@ double area_of(const SolidBlock& block, Index e, std::span<const Line> x) {
 
 double volume_of(const SolidBlock& block, Index e, std::span<const Line> x) {
   if (block.layout.plane) return area_of(block, e, x);
-  // Signs of xi, eta, zeta at the corners.
-  constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   Vec3 a[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   Vec3 g[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int k = 0; k < 8; ++k) {
@@ -70,7 +94,8 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.constants = make_constants(material, section);
   assert(section.points == 1 || section.points == 8);
   block.layout = {material.plastic() ? block.constants.history.n : 0,
-                  section.points == 1 && !section.viscous_hourglass, section.points, section.plane};
+                  section.points == 1 && !section.viscous_hourglass, section.points, section.plane,
+                  material.hyperelastic()};
   const int n_corners = block.layout.n_corners();
   block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
   block.corners = corners_by_block(connectivity, n_corners);
@@ -84,6 +109,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
     }
     block.value(e, block.layout.inverse_volume()) = 1 / volume;
   }
+  if (block.layout.has_start) keep_start(block, x);
   block.colouring = colour_chunks(connectivity, n_corners, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;

@@ -83,6 +83,97 @@ GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double dt, d
   return sigma;
 }
 
+/// Isochoric stress of rubber from F = dx/dX. An element may be inside out for a step before it
+/// leaves or stops the run, so J, its determinant, is kept above 0. Not inlined, as
+/// general_stress().
+__attribute__((noinline)) inline void rubber_stress(const SolidConstants& c, const Tensor& F,
+                                                    HyperelasticStress<Vec8>& out, Vec8& J) {
+  J = max(dot(F.row[0], cross(F.row[1], F.row[2])), Vec8(1e-3));
+  const Symmetric<Vec8> b{dot(F.row[0], F.row[0]), dot(F.row[1], F.row[1]),
+                          dot(F.row[2], F.row[2]), dot(F.row[0], F.row[1]),
+                          dot(F.row[1], F.row[2]), dot(F.row[2], F.row[0])};
+  out = isochoric(c.rubber, b, J);
+}
+
+/// First Piola-Kirchhoff stress, sigma cof(F): forces per area at the start.
+GANNET_INLINE Tensor piola(const Symmetric<Vec8>& s, const Tensor& F) {
+  const Vec8x3 c0 = cross(F.row[1], F.row[2]);
+  const Vec8x3 c1 = cross(F.row[2], F.row[0]);
+  const Vec8x3 c2 = cross(F.row[0], F.row[1]);
+  const auto row = [&](Vec8 a, Vec8 b, Vec8 d) {
+    return scaled(c0, a) + scaled(c1, b) + scaled(c2, d);
+  };
+  return {{row(s.xx, s.xy, s.zx), row(s.xy, s.yy, s.yz), row(s.zx, s.yz, s.zz)}};
+}
+
+/// The shape at the start, as stored.
+GANNET_INLINE SolidModes load_start(const SolidLayout& layout, const double* state) {
+  SolidModes X;
+  const double* p = state + 8 * layout.start();
+  const auto next = [&p] {
+    const Vec8x3 a{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
+    p += 24;
+    return a;
+  };
+  for (Vec8x3& a : X.a) a = next();
+  for (Vec8x3& g : X.g) g = next();
+  return X;
+}
+
+/// Moduli that bound the frequencies of an element now [Pa].
+struct Moduli {
+  Vec8 bulk;
+  Vec8 shear;
+};
+
+/// Shear modulus of a point of rubber with what its tension adds, as that of a string does.
+GANNET_INLINE Vec8 taut_shear(const HyperelasticStress<Vec8>& stress, Vec8 mean) {
+  return stress.shear + Vec8(0.5) * max(largest_principal_bound(stress.deviator) + mean, Vec8(0.0));
+}
+
+/// One point of rubber over the whole element: its forces are the gradient of its energy by the
+/// corners, F_mode = -P D_mode of the start, so that they do P : dF V0 along a step exactly.
+struct RubberPoint {
+  SolidGeometry start;
+  Tensor P;  ///< of n [Pa]
+  Moduli now;
+  Vec8 work;  ///< (P(n-1) + P(n))/2 : dF V0 [J]
+};
+
+GANNET_INLINE RubberPoint rubber_point(const SolidConstants& c, const SolidLayout& layout,
+                                       double dt, const SolidModes& x, const SolidModes& v,
+                                       double* state) {
+  RubberPoint r;
+  r.start = solid_geometry(load_start(layout, state));
+  const Vec8 inverse_V0 = reciprocal(r.start.volume);
+  const Tensor F = mean_gradient(r.start, x, inverse_V0);
+  const Tensor dF = mean_gradient(r.start, v, inverse_V0 * Vec8(dt));
+  Tensor before;
+  for (int i = 0; i < 3; ++i) before.row[i] = F.row[i] - dF.row[i];
+  const Tensor P_old = piola(load_stress(state), before);
+  HyperelasticStress<Vec8> stress;
+  Vec8 J;
+  rubber_stress(c, F, stress, J);
+  const Vec8 p = volume_stress(c.rubber, J);
+  Symmetric<Vec8> sigma = stress.deviator;
+  sigma.xx += p;
+  sigma.yy += p;
+  sigma.zz += p;
+  store_stress(sigma, state);
+  r.P = piola(sigma, F);
+  r.work = Vec8(0.0);
+  for (int i = 0; i < 3; ++i) r.work += dot(P_old.row[i] + r.P.row[i], dF.row[i]);
+  r.work = Vec8(0.5) * r.work * r.start.volume;
+  r.now = {volume_modulus(c.rubber, J), taut_shear(stress, p)};
+  return r;
+}
+
+/// Adds -P D_mode of the start.
+GANNET_INLINE void add_forces(const RubberPoint& r, SolidModes& F) {
+  for (int k = 0; k < 3; ++k) F.a[k] = F.a[k] - times(r.P, r.start.a[k]);
+  for (int k = 0; k < 3; ++k) F.g[k] = F.g[k] - times(r.P, r.start.g[k]);
+}
+
 /// What the bulk viscosity adds [Pa], and to the damping of the highest mode.
 struct BulkViscosity {
   Vec8 q;
@@ -156,10 +247,9 @@ GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& 
 /// corner. With G the Gram matrix, (tr d)^2 <= tr G |v|^2 and d : d <= largest(G) |v|^2, so
 ///   omega^2 <= 8/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + 8 largest(G) sum |g|^2/V^2),
 /// exact for a cube (3 K) and for a flat element (lambda + 2 mu).
-GANNET_INLINE Vec8 solid_omega2(const SolidConstants& c, const GramBound& gram, const SolidModes& x,
-                                Vec8 inverse_volume, Vec8 inverse_mass, Vec8 k_h) {
-  const Vec8 lambda(c.law.bulk - 2.0 / 3.0 * c.law.shear);
-  const Vec8 two_mu(2.0 * c.law.shear);
+GANNET_INLINE Vec8 solid_omega2(Vec8 lambda, Vec8 two_mu, const GramBound& gram,
+                                const SolidModes& x, Vec8 inverse_volume, Vec8 inverse_mass,
+                                Vec8 k_h) {
   Vec8 g2(0.0);
   for (const Vec8x3& g : x.g) g2 += dot(g, g);
   const Vec8 eight(8.0);

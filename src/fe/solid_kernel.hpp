@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "material/hyperelastic.hpp"
 #include "material/j2.hpp"
 
 namespace gannet {
@@ -15,6 +16,8 @@ struct SolidConstants {
   PointLaw point_law = PointLaw::elastic;
   J2Law j2;                          ///< where point_law is general
   J2History history;                 ///< of j2
+  HyperelasticLaw rubber;            ///< where point_law is hyperelastic
+  double hourglass_modulus = 0;      ///< that `hourglass` is a share of [Pa]
   double hourglass = 0.05;           ///< coefficient, see solid_element.hpp
   double inverse_wave_speed = 0;     ///< 1/c, c^2 = (lambda + 2 mu)/rho0 [s/m]
   double rho0 = 0;                   ///< [kg/m^3]
@@ -26,10 +29,11 @@ struct SolidConstants {
 /// Where the numbers of an element stand in its block: number k of lane l is at
 /// state[(block * n_values + k) * 8 + l].
 struct SolidLayout {
-  int n_history = 0;      ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
-  bool remembers = true;  ///< hourglass forces are kept: control by stiffness
-  int n_points = 1;       ///< 1 or 8
-  bool plane = false;     ///< quadrilaterals in plane strain, one unit thick
+  int n_history = 0;       ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
+  bool remembers = true;   ///< hourglass forces are kept: control by stiffness
+  int n_points = 1;        ///< 1 or 8
+  bool plane = false;      ///< quadrilaterals in plane strain, one unit thick
+  bool has_start = false;  ///< the shape at the start is kept
   [[nodiscard]] bool plastic() const { return n_history > 0; }
   [[nodiscard]] int n_corners() const { return plane ? 4 : 8; }
   [[nodiscard]] int per_point() const { return 6 + n_history; }
@@ -41,7 +45,9 @@ struct SolidLayout {
   [[nodiscard]] int inverse_volume() const { return viscous_pressure() + 1; }
   /// Q of the four hourglass patterns, x, y, z each [N]; where they are remembered
   [[nodiscard]] int hourglass() const { return inverse_volume() + 1; }
-  [[nodiscard]] int n_values() const { return hourglass() + (remembers ? 12 : 0); }
+  /// The seven coefficients of the positions at the start, x, y, z each [m]; where they are kept
+  [[nodiscard]] int start() const { return hourglass() + (remembers ? 12 : 0); }
+  [[nodiscard]] int n_values() const { return start() + (has_start ? 21 : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.

@@ -217,12 +217,19 @@ GANNET_INLINE Vec8 damped_factor(Vec8 zeta) {
   return factor * factor;
 }
 
+/// Lame's constants that bound the frequency.
+struct Lame {
+  Vec8 lambda;
+  Vec8 two_mu;
+};
+
 /// Adds the work of a point or an element to the sums. volume: of what it is per [m^3].
 template <PointLaw law>
 GANNET_INLINE void add_work(const SolidMotion& m, const J2Work<Vec8>& work, Vec8 volume,
                             SolidLaneSums& sums) {
   sums.internal += m.of_alive(work.internal * volume);
-  if constexpr (law != PointLaw::elastic) sums.plastic += m.of_alive(work.plastic * volume);
+  constexpr bool yields = law == PointLaw::linear_hardening || law == PointLaw::general;
+  if constexpr (yields) sums.plastic += m.of_alive(work.plastic * volume);
   if constexpr (law == PointLaw::general) sums.eroded += m.of_alive(work.eroded * volume);
 }
 
@@ -244,20 +251,30 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
   double* state = pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
   const SolidMotion m = solid_motion(pass, corners, state);
   const Tensor R = rotation_of(m.L);
-  J2Work<Vec8> work;
-  Symmetric<Vec8> sigma = solid_stress<law>(c, pass.dt, state, m.e, R, work);
-  add_work<law>(m, work, m.half.volume, sums);
+  Symmetric<Vec8> sigma{};
+  RubberPoint rubber;
+  Lame now{Vec8(c.law.bulk - 2.0 / 3.0 * c.law.shear), Vec8(2.0 * c.law.shear)};
+  if constexpr (law == PointLaw::hyperelastic) {
+    rubber = rubber_point(c, pass.layout, pass.dt, m.x, m.v, state);
+    sums.internal += m.of_alive(rubber.work);
+    now = {rubber.now.bulk - Vec8(2.0 / 3.0) * rubber.now.shear, Vec8(2.0) * rubber.now.shear};
+  } else {
+    J2Work<Vec8> work;
+    sigma = solid_stress<law>(c, pass.dt, state, m.e, R, work);
+    add_work<law>(m, work, m.half.volume, sums);
+  }
   const auto keep = keeper<law>(pass, state);
   const BulkViscosity bulk = add_bulk_viscosity(pass, m, keep, state, sums);
   sigma.xx -= bulk.q;
   sigma.yy -= bulk.q;
   sigma.zz -= bulk.q;
-  const Vec8 k_h = Vec8(8.0 * c.hourglass * (c.law.bulk + 4.0 / 3.0 * c.law.shear)) * m.gram.trace *
-                   m.inverse_volume;
+  const Vec8 k_h = Vec8(8.0 * c.hourglass * c.hourglass_modulus) * m.gram.trace * m.inverse_volume;
   Vec8x3 Q[4];
   add_hourglass(pass, m, R, k_h, keep, state, sums, Q);
   SolidModes F = solid_forces(m.now, m.x, sigma, Q, m.inverse_volume);
-  const Vec8 omega2 = solid_omega2(c, m.gram, m.x, m.inverse_volume, m.inverse_mass, k_h);
+  if constexpr (law == PointLaw::hyperelastic) add_forces(rubber, F);
+  const Vec8 omega2 =
+      solid_omega2(now.lambda, now.two_mu, m.gram, m.x, m.inverse_volume, m.inverse_mass, k_h);
   if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
   finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
 }
@@ -274,6 +291,16 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
   SolidModes F{};
   Vec8 mean_stress(0.0);  // times the volume
   Vec8 largest(0.0);      // of the Gram matrices, times the volume
+  // Of rubber: its mean stress follows from the volume of the element.
+  Vec8 pressure(0.0);
+  Moduli moduli{Vec8(c.law.bulk), Vec8(c.law.shear)};
+  SolidModes X{};
+  if constexpr (law == PointLaw::hyperelastic) {
+    X = load_start(pass.layout, state);
+    const Vec8 ratio = max(m.now.volume * m.inverse_V0, Vec8(1e-3));
+    pressure = volume_stress(c.rubber, ratio);
+    moduli.bulk = volume_modulus(c.rubber, ratio);
+  }
   for (int point = 0; point < 8; ++point) {
     const SolidPlace at = gauss_place(point);
     const PointGradient half = point_gradient(m.x_half, at);
@@ -285,7 +312,21 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
     e.zz += change;
     J2Work<Vec8> work;
     double* kept = state + 8 * pass.layout.stress(point);
-    const Symmetric<Vec8> sigma = solid_stress<law>(c, pass.dt, kept, e, rotation_of(L), work);
+    Symmetric<Vec8> sigma;
+    if constexpr (law == PointLaw::hyperelastic) {
+      HyperelasticStress<Vec8> stress;
+      Vec8 J;
+      rubber_stress(c, gradient_at(point_gradient(X, at), m.x, at, Vec8(1.0)), stress, J);
+      sigma = stress.deviator;
+      sigma.xx += pressure;
+      sigma.yy += pressure;
+      sigma.zz += pressure;
+      work.internal = Vec8(0.5) * (contraction(load_stress(kept), e) + contraction(sigma, e));
+      store_stress(sigma, kept);
+      moduli.shear = max(moduli.shear, taut_shear(stress, pressure));
+    } else {
+      sigma = solid_stress<law>(c, pass.dt, kept, e, rotation_of(L), work);
+    }
     add_work<law>(m, work, half.det, sums);
     const PointGradient now = point_gradient(m.x, at);
     const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
@@ -299,7 +340,7 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
   // tr of the mean gradient and the deviator at each point are bounded apart.
   const Vec8 omega2 =
       Vec8(8.0) * m.inverse_mass *
-      (Vec8(c.law.bulk) * m.gram.trace * m.inverse_volume + Vec8(2.0 * c.law.shear) * largest);
+      (moduli.bulk * m.gram.trace * m.inverse_volume + Vec8(2.0) * moduli.shear * largest);
   if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
   finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
 }
@@ -330,6 +371,9 @@ __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t be
   } else if (law == PointLaw::general) {
     if (one) solid_blocks<PointLaw::general, 1>(pass, begin, end, sums);
     if (!one) solid_blocks<PointLaw::general, 8>(pass, begin, end, sums);
+  } else if (law == PointLaw::hyperelastic) {
+    if (one) solid_blocks<PointLaw::hyperelastic, 1>(pass, begin, end, sums);
+    if (!one) solid_blocks<PointLaw::hyperelastic, 8>(pass, begin, end, sums);
   } else {
     if (one) solid_blocks<PointLaw::elastic, 1>(pass, begin, end, sums);
     if (!one) solid_blocks<PointLaw::elastic, 8>(pass, begin, end, sums);

@@ -147,6 +147,26 @@ std::vector<Key> cowper_symonds_keys() {
            .limits = at_least(1)}};
 }
 
+/// Keys of a law of rubber with these constants.
+std::vector<Key> rubber_keys(const std::vector<std::string>& constants) {
+  std::vector<Key> keys;
+  for (const std::string& c : constants) {
+    keys.push_back({.name = c,
+                    .unit = dim::pressure,
+                    .text = "constant of the energy W(I1, I2)",
+                    .required = true});
+  }
+  keys.push_back({.name = "bulk_modulus",
+                  .unit = dim::pressure,
+                  .text = "resistance to a change of the volume; or poisson",
+                  .limits = positive()});
+  keys.push_back(
+      {.name = "poisson",
+       .text = "Poisson's ratio at the start; or bulk_modulus",
+       .limits = {.lowest = 0, .highest = 0.5, .lowest_open = true, .highest_open = true}});
+  return keys;
+}
+
 std::vector<Key> failure_keys() {
   return {{.name = "plastic_strain",
            .text = "plastic strain at which a point carries no more",
@@ -206,6 +226,18 @@ Schema elastic_plastic_schema() {
        .kind = Kind::map,
        .text = "yield stress (A + B eps_p^n) (1 + C ln(rate/rate0)) (1 - T*^m)",
        .keys = johnson_cook_keys()});
+  add({.name = "neo_hookean",
+       .kind = Kind::map,
+       .text = "rubber: W = C10 (I1 - 3)",
+       .keys = rubber_keys({"C10"})});
+  add({.name = "mooney_rivlin",
+       .kind = Kind::map,
+       .text = "rubber: W = C10 (I1 - 3) + C01 (I2 - 3)",
+       .keys = rubber_keys({"C10", "C01"})});
+  add({.name = "yeoh",
+       .kind = Kind::map,
+       .text = "rubber: W = C10 (I1 - 3) + C20 (I1 - 3)^2 + C30 (I1 - 3)^3",
+       .keys = rubber_keys({"C10", "C20", "C30"})});
   add({.name = "failure",
        .kind = Kind::map,
        .text = "when a point carries no more; an element leaves with its last point",
@@ -294,6 +326,30 @@ void read_failure(const Keys& material, ElasticPlastic& solid) {
   for (std::size_t k = 0; k < 5; ++k) solid.failure.strain[k] = D[k];
 }
 
+/// Rubber of the law under `name`.
+void read_rubber(const Keys& material, const char* name, ElasticPlastic& solid) {
+  const Keys keys = material.map(name);
+  HyperelasticLaw& law = solid.rubber;
+  law.C10 = keys.number_or("C10", 0);
+  law.C01 = keys.number_or("C01", 0);
+  law.C20 = keys.number_or("C20", 0);
+  law.C30 = keys.number_or("C30", 0);
+  const double mu = 2 * (law.C10 + law.C01);
+  if (!(mu > 0)) keys.complain("C10", "the shear modulus 2 (C10 + C01) must be above 0");
+  if (keys.has("bulk_modulus") == keys.has("poisson")) {
+    material.complain(name, "either bulk_modulus or poisson says how its volume changes");
+  }
+  const double nu = keys.number_or("poisson", 0.49);
+  law.bulk = keys.number_or("bulk_modulus", 2 * mu * (1 + nu) / (3 * (1 - 2 * nu)));
+  if (!(law.bulk > 0)) law.bulk = 1;  // after a mistake
+  solid.E = 9 * law.bulk * mu / (3 * law.bulk + mu);
+  solid.nu = (3 * law.bulk - 2 * mu) / (2 * (3 * law.bulk + mu));
+  for (const char* key :
+       {"young", "poisson", "yield_stress", "hardening_curve", "johnson_cook", "failure"}) {
+    if (material.has(key)) material.complain(key, std::string("has no meaning beside ") + name);
+  }
+}
+
 /// What a key needs beside it, and what may not stand there.
 void check_company(const Keys& material, const ElasticPlastic& solid) {
   int ways = 0;
@@ -334,6 +390,12 @@ ElasticPlastic read_elastic_plastic(const Keys& material) {
     return otherwise;
   };
   solid.rho = need("density", "its density (kg/m^3)", 1);
+  for (const char* name : {"neo_hookean", "mooney_rivlin", "yeoh"}) {
+    if (!material.has(name)) continue;
+    if (solid.hyperelastic()) material.complain(name, "one law of rubber, not two");
+    read_rubber(material, name, solid);
+  }
+  if (solid.hyperelastic()) return solid;
   solid.E = need("young", "Young's modulus (Pa)", 1);
   solid.nu = need("poisson", "Poisson's ratio", 0);
   solid.sigma_y = material.number_or("yield_stress", 0);
@@ -350,6 +412,17 @@ ElasticPlastic read_elastic_plastic(const Keys& material) {
     solid.rate_power = 1 / rate.number("p");
   }
   return solid;
+}
+
+ElasticPlastic read_but_rubber(const Keys& root, const Keys& part) {
+  const ElasticPlastic material =
+      read_elastic_plastic(root.map("materials").map(part.word("material")));
+  if (material.hyperelastic()) {
+    part.complain("material", "'" + part.word("material") +
+                                  "' is rubber, which only solids are made of: its stress follows "
+                                  "from the deformation since the start");
+  }
+  return material;
 }
 
 }  // namespace gannet

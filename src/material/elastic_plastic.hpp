@@ -7,6 +7,7 @@
 
 #include "base/keys.hpp"
 #include "base/schema.hpp"
+#include "material/hyperelastic.hpp"
 #include "material/j2.hpp"
 
 namespace gannet {
@@ -43,13 +44,16 @@ struct ElasticPlastic {
   double rate_power = 0;  ///< 1/p or C [-]
   AdiabaticHeating heating;
   Failure failure;
+  HyperelasticLaw rubber;  ///< where its bulk is above 0; E and nu are those at the start then
   [[nodiscard]] bool plastic() const { return sigma_y > 0; }
+  [[nodiscard]] bool hyperelastic() const { return rubber.bulk > 0; }
   /// More than linear isotropic hardening: the law of j2.hpp.
   [[nodiscard]] bool general() const {
     return plastic() && (kinematic_fraction > 0 || !curve_strain.empty() || power_factor > 0 ||
                          rate_law != RateLaw::none || heating.specific_heat > 0 || failure.given());
   }
   [[nodiscard]] PointLaw point_law() const {
+    if (hyperelastic()) return PointLaw::hyperelastic;
     if (!plastic()) return PointLaw::elastic;
     return general() ? PointLaw::general : PointLaw::linear_hardening;
   }
@@ -69,10 +73,15 @@ J2Law j2_law(const ElasticPlastic& material);
 /// The keys of "materials.*" that belong to solids.
 Schema elastic_plastic_schema();
 
-/// The solid that a card describes: `density`, `young`, `poisson`, and where it can yield either
-/// `yield_stress` with `hardening_modulus` and `kinematic_fraction`, a `hardening_curve` or
-/// `johnson_cook`; beside them `cowper_symonds` and `failure`. Notes a mistake for each key that is
-/// missing or does not go with the others. Throws nothing.
+/// The solid that a card describes: `density`; of rubber `neo_hookean`, `mooney_rivlin` or `yeoh`;
+/// of all others `young`, `poisson`, and where it can yield either `yield_stress` with
+/// `hardening_modulus` and `kinematic_fraction`, a `hardening_curve` or `johnson_cook`; beside them
+/// `cowper_symonds` and `failure`. Notes a mistake for each key that is missing or does not go with
+/// the others. Throws nothing.
 ElasticPlastic read_elastic_plastic(const Keys& material);
+
+/// As read_elastic_plastic() of the material of that name, for elements that know no deformation
+/// since the start: notes a mistake at part.material where it is rubber.
+ElasticPlastic read_but_rubber(const Keys& root, const Keys& part);
 
 }  // namespace gannet

@@ -34,7 +34,7 @@ namespace gannet {
 inline constexpr int max_hardening_points = 16;
 
 /// Which code answers at the points of an element.
-enum class PointLaw { elastic, linear_hardening, general };
+enum class PointLaw { elastic, linear_hardening, general, hyperelastic };
 
 enum class RateLaw { none, cowper_symonds, johnson_cook };
 

@@ -215,7 +215,7 @@ boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx,
 output: {until: 10 s, checkpoint: never}
 )case";
 
-/// Metals with all that they can have: a rod of copper that warms and fails at a wall, a bar with a
+/// Rubber, and metals with all that they can have: a rod of copper that warms and fails at a wall, a bar with a
 /// yield surface that moves, and a sheet with a hardening curve, drawn out until elements leave.
 inline const std::string metals = R"case(gannet: 1
 materials:
@@ -226,6 +226,7 @@ materials:
     johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.31, C: 0.025, m: 1.09, melting: 1331 K, specific_heat: 383 J/(kg*K)}
     failure: {johnson_cook: [0.05, 0.2, -3.03, 0.014, 1.12]}
   steel: {density: 7800, young: 210 GPa, poisson: 0.3, yield_stress: 300 MPa, hardening_modulus: 3 GPa, kinematic_fraction: 0.5, cowper_symonds: {D: 40.4 1/s, p: 5}}
+  gum: {density: 1100, yeoh: {C10: 0.5 MPa, C20: -0.02 MPa, C30: 0.002 MPa, poisson: 0.49}}
   plate:
     density: 7800
     young: 210 GPa
@@ -241,6 +242,14 @@ parts:
     solid: {material: steel, formulation: eight_points}
     shape: {block: {from: [0.1 m, 0, 0], to: [0.2 m, 10 mm, 10 mm], elements: [60, 6, 6]}}
     initial_velocity: ["60*cos(30*x)", "20*sin(90*x)", 0]
+  gate:
+    solid: {material: gum, formulation: eight_points}
+    shape: {block: {from: [0.3 m, 0, 0], to: [0.4 m, 10 mm, 10 mm], elements: [40, 6, 6]}}
+    initial_velocity: ["10*cos(30*x)", "2*sin(90*x)", 0]
+  pad:
+    solid: {material: gum}
+    shape: {block: {from: [0.3 m, 0.1 m, 0], to: [0.4 m, 0.11 m, 10 mm], elements: [40, 6, 6]}}
+    initial_velocity: ["10*cos(30*x)", "2*sin(90*x)", 0]
   sheet:
     shell: {material: plate, thickness: 1 mm, thickness_change: yes}
     shape: {plate: {size: [0.1 m, 0.1 m], elements: [50, 50], centre: [0, 0.2 m, 0]}}
