@@ -36,6 +36,18 @@ struct RenderOptions {
   int threads = 0;  ///< 0: all cores
 };
 
+struct MaterialOptions {
+  std::string card;                         ///< name in the library, or a file
+  std::string path = "uniaxial";            ///< see StrainPath
+  std::vector<std::string> to{"0.2"};       ///< strains where the path ends or turns round
+  std::vector<std::string> rates{"1 1/s"};  ///< one curve each
+  std::vector<std::string> set;             ///< "key=value" of the material
+  std::string element = "solid";
+  int steps = 400;  ///< between two turns
+  std::string csv;
+  std::string svg;
+};
+
 struct HardOptions {
   std::vector<std::string> names;  ///< files, or names in the folder; none: all of the folder
   std::string folder;              ///< of hard cases; empty: tests/hard here or above
@@ -78,6 +90,10 @@ int bench_command(const BenchOptions& options);
 
 /// Draws frames of a finished or running run as PNG files; needs no display.
 int render_command(const RenderOptions& options);
+
+/// Leads one element of a material along a path of strain: a curve a rate as CSV and SVG; as CSV to
+/// the screen where no file is named.
+int material_command(const MaterialOptions& options);
 
 /// Runs hard cases and their variants against their limits, or draws a stability map of one.
 /// Returns 1 where a limit was broken that had to be kept, or kept that had to be broken.

@@ -79,6 +79,28 @@ void add_render(CLI::App& app, RenderOptions& options, int& code) {
   render->callback([&] { code = render_command(options); });
 }
 
+void add_material(CLI::App& app, MaterialOptions& options, int& code) {
+  CLI::App* material =
+      app.add_subcommand("material", "stress over strain of a material, as elements answer");
+  material->add_option("card", options.card, "a card of the library, or its file")->required();
+  material
+      ->add_option("--strain-path", options.path,
+                   "uniaxial (default), biaxial, plane, uniaxial_strain or shear")
+      ->check(CLI::IsMember({"uniaxial", "biaxial", "plane", "uniaxial_strain", "shear"}));
+  material->add_option("--to", options.to, "strain at the end, or where it turns: 0.02,-0.02,0.2")
+      ->delimiter(',');
+  material->add_option("--rate", options.rates, "rate of the strain, a curve each: 1,1000 (1/s)")
+      ->delimiter(',');
+  material->add_option("--set", options.set, "override a key of the card: key=value");
+  material->add_option("--element", options.element, "solid (default) or shell: plane stress")
+      ->check(CLI::IsMember({"solid", "shell"}));
+  material->add_option("--steps", options.steps, "steps between two turns (default: 400)")
+      ->check(CLI::Range(1, 1000000));
+  material->add_option("--csv", options.csv, "write the curves into this file");
+  material->add_option("--svg", options.svg, "draw them into this file");
+  material->callback([&] { code = material_command(options); });
+}
+
 void add_hard(CLI::App& app, HardOptions& options, int& code) {
   CLI::App* hard = app.add_subcommand("hard", "hold hard cases to their limits; stability maps");
   hard->add_option("name", options.names, "cases by name or file (default: all of the folder)");
@@ -129,6 +151,7 @@ int run_program(int argc, char** argv) {
   RunOptions options;
   BenchOptions bench;
   RenderOptions render;
+  MaterialOptions material;
   HardOptions hard;
   StudyOptions study;
   int code = 0;
@@ -136,6 +159,7 @@ int run_program(int argc, char** argv) {
   add_looks(app, options, code);
   add_bench(app, bench, code);
   add_render(app, render, code);
+  add_material(app, material, code);
   add_hard(app, hard, code);
   add_study(app, study, code);
   try {

@@ -45,20 +45,37 @@ std::string line_between(double x1, double y1, double x2, double y2, const std::
 }
 
 std::string tick_text(double x) {
-  return x >= 1e5 || x < 1e-4 ? fmt::format("{:.0e}", x) : fmt::format("{:g}", x);
+  const double size = std::abs(x);
+  if (size < 1e-12) return "0";
+  return size >= 1e5 || size < 1e-4 ? fmt::format("{:.0e}", x) : fmt::format("{:g}", x);
 }
 
-/// A logarithmic axis between two places of the picture.
-struct LogAxis {
+/// A logarithmic axis, or an even one, between two places of the picture.
+struct Axis {
   double lo = 1;
   double hi = 10;
   double at_lo = 0;
   double at_hi = 1;
+  bool even = false;
   [[nodiscard]] double at(double value) const {
-    return at_lo + (at_hi - at_lo) * std::log(value / lo) / std::log(hi / lo);
+    const double share = even ? (value - lo) / (hi - lo) : std::log(value / lo) / std::log(hi / lo);
+    return at_lo + (at_hi - at_lo) * share;
+  }
+  /// Whole multiples of 1, 2 or 5 times a power of ten, about six of them.
+  [[nodiscard]] std::vector<double> even_ticks() const {
+    const double rough = (hi - lo) / 6;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    double step = 10 * power;
+    for (const double digit : {5.0, 2.0, 1.0}) {
+      if (digit * power >= rough) step = digit * power;
+    }
+    std::vector<double> ticks;
+    for (double k = std::ceil(lo / step); k * step <= hi; ++k) ticks.push_back(k * step);
+    return ticks;
   }
   /// Round numbers, fewer of them over a long range, more over a short one.
   [[nodiscard]] std::vector<double> ticks() const {
+    if (even) return even_ticks();
     const double decades = std::log10(hi / lo);
     std::vector<double> digits = {1};
     if (decades < 3) digits = {1, 2, 5};
@@ -75,26 +92,32 @@ struct LogAxis {
   }
 };
 
-bool can_stand(double x, double y) {
-  return std::isfinite(x) && std::isfinite(y) && x > 0 && y > 0;
+bool can_stand(double x, double y, const Axis& axis) {
+  return std::isfinite(x) && std::isfinite(y) && (axis.even || (x > 0 && y > 0));
 }
 
 /// Axes that hold all points, with a margin of a tenth and at least a factor of two.
-bool axes_of(const Plot& plot, LogAxis& x, LogAxis& y) {
+bool axes_of(const Plot& plot, Axis& x, Axis& y) {
   const double inf = std::numeric_limits<double>::infinity();
-  x = {inf, 0, left, right};
-  y = {inf, 0, bottom, top};
+  x = {inf, x.even ? -inf : 0, left, right, x.even};
+  y = {inf, y.even ? -inf : 0, bottom, top, y.even};
   for (const PlotSeries& s : plot.series) {
     for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (!can_stand(s.x[i], s.y[i])) continue;
+      if (!can_stand(s.x[i], s.y[i], x)) continue;
       x.lo = std::min(x.lo, s.x[i]);
       x.hi = std::max(x.hi, s.x[i]);
       y.lo = std::min(y.lo, s.y[i]);
       y.hi = std::max(y.hi, s.y[i]);
     }
   }
-  if (!(x.hi > 0)) return false;
-  for (LogAxis* axis : {&x, &y}) {
+  if (!(x.hi >= x.lo)) return false;
+  for (Axis* axis : {&x, &y}) {
+    if (axis->even) {
+      const double margin = axis->hi > axis->lo ? 0.04 * (axis->hi - axis->lo) : 1;
+      axis->lo -= margin;
+      axis->hi += margin;
+      continue;
+    }
     const double margin =
         std::max(std::pow(axis->hi / axis->lo, 0.1), std::sqrt(2 * axis->lo / axis->hi));
     axis->lo /= std::max(margin, 1.05);
@@ -103,7 +126,7 @@ bool axes_of(const Plot& plot, LogAxis& x, LogAxis& y) {
   return true;
 }
 
-std::string frame_of(const Plot& plot, const LogAxis& x, const LogAxis& y) {
+std::string frame_of(const Plot& plot, const Axis& x, const Axis& y) {
   std::string out;
   for (const double tick : x.ticks()) {
     out += line_between(x.at(tick), top, x.at(tick), bottom, "stroke=\"#e4e4e4\"");
@@ -134,10 +157,10 @@ std::string marker(double x, double y, const PlotSeries& s, const std::string& t
 }
 
 /// Right of the points and a little above; left of those that are near the right edge.
-std::string labels_of(const PlotSeries& s, const LogAxis& x, const LogAxis& y) {
+std::string labels_of(const PlotSeries& s, const Axis& x, const Axis& y) {
   std::string out;
   for (std::size_t i = 0; i < s.labels.size(); ++i) {
-    if (!can_stand(s.x[i], s.y[i])) continue;
+    if (!can_stand(s.x[i], s.y[i], x)) continue;
     const double at = x.at(s.x[i]);
     const bool at_edge = at + 14 + 6.3 * static_cast<double>(s.labels[i].size()) > right;
     out += text_at(at_edge ? at - 9 : at + 9, y.at(s.y[i]) - 7, s.labels[i],
@@ -147,11 +170,11 @@ std::string labels_of(const PlotSeries& s, const LogAxis& x, const LogAxis& y) {
   return out;
 }
 
-std::string drawn(const PlotSeries& s, const LogAxis& x, const LogAxis& y) {
+std::string drawn(const PlotSeries& s, const Axis& x, const Axis& y) {
   std::string path;
   std::string markers;
   for (std::size_t i = 0; i < s.x.size(); ++i) {
-    if (!can_stand(s.x[i], s.y[i])) continue;
+    if (!can_stand(s.x[i], s.y[i], x)) continue;
     path += fmt::format("{:.1f},{:.1f} ", x.at(s.x[i]), y.at(s.y[i]));
     if (s.markers)
       markers += marker(x.at(s.x[i]), y.at(s.y[i]), s, i < s.tips.size() ? s.tips[i] : "");
@@ -167,7 +190,7 @@ std::string drawn(const PlotSeries& s, const LogAxis& x, const LogAxis& y) {
 }
 
 /// Above the frame's corner that has the fewest points: upper right or lower left.
-std::string legend(const Plot& plot, const LogAxis& x, const LogAxis& y) {
+std::string legend(const Plot& plot, const Axis& x, const Axis& y) {
   std::vector<const PlotSeries*> shown;
   std::size_t longest = 0;
   for (const PlotSeries& s : plot.series) {
@@ -188,7 +211,7 @@ std::string legend(const Plot& plot, const LogAxis& x, const LogAxis& y) {
     int inside = 0;
     for (const PlotSeries& s : plot.series) {
       for (std::size_t i = 0; i < s.x.size(); ++i) {
-        if (!can_stand(s.x[i], s.y[i])) continue;
+        if (!can_stand(s.x[i], s.y[i], x)) continue;
         const double px = x.at(s.x[i]) - corner[0];
         const double py = y.at(s.y[i]) - corner[1];
         if (px > -8 && px < w + 8 && py > -8 && py < h + 8) ++inside;
@@ -249,10 +272,12 @@ std::string xml_text(const std::string& text) {
   return out;
 }
 
-std::string log_plot(const Plot& plot) {
+namespace {
+
+std::string plot_of(const Plot& plot, bool even) {
   std::string out = start_of(width, height) + heading(plot.title, plot.subtitle);
-  LogAxis x;
-  LogAxis y;
+  Axis x{.even = even};
+  Axis y{.even = even};
   if (!axes_of(plot, x, y)) {
     return out + text_at(left, (top + bottom) / 2, "There is nothing to show.") + "</svg>\n";
   }
@@ -260,6 +285,12 @@ std::string log_plot(const Plot& plot) {
   for (const PlotSeries& s : plot.series) out += drawn(s, x, y);
   return out + legend(plot, x, y) + "</svg>\n";
 }
+
+}  // namespace
+
+std::string log_plot(const Plot& plot) { return plot_of(plot, false); }
+
+std::string even_plot(const Plot& plot) { return plot_of(plot, true); }
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Small pictures as SVG text: lines and points on logarithmic axes, and bars.
+// Small pictures as SVG text: lines and points on logarithmic or even axes, and bars.
 #pragma once
 
 #include <string>
@@ -31,6 +31,9 @@ struct Plot {
 /// A picture with logarithmic axes. Points that are not finite and above 0 are left out; with none
 /// left the picture says so.
 std::string log_plot(const Plot& plot);
+
+/// The same with even axes, which also hold what is 0 and below.
+std::string even_plot(const Plot& plot);
 
 /// One row of bars: what it is, and a relative change in each column.
 struct BarRow {
