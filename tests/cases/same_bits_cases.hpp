@@ -215,8 +215,9 @@ boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx,
 output: {until: 10 s, checkpoint: never}
 )case";
 
-/// Rubber, and metals with all that they can have: a rod of copper that warms and fails at a wall, a bar with a
-/// yield surface that moves, and a sheet with a hardening curve, drawn out until elements leave.
+/// Rubber, and metals with all that they can have: a rod of copper that warms and fails at a wall,
+/// a bar with a yield surface that moves, and a sheet with a hardening curve, drawn out until
+/// elements leave.
 inline const std::string metals = R"case(gannet: 1
 materials:
   copper:
