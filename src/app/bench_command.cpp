@@ -108,12 +108,14 @@ BenchResult bench_sph_pass(int n, Pass pass, bool single = false) {
 
 /// A case of one part of elements, set moving as a wave of 1 m/s and three steps on its way.
 std::unique_ptr<Simulation> moving_elements(const std::string& parts) {
-  auto simulation =
-      make_simulation_of_text(fmt::format("gannet: 1\n"
-                                          "materials: {{metal: {{card: al_6061_t6}}}}\n"
-                                          "parts: {}\n"
-                                          "output: {{until: 1 s}}\n",
-                                          parts));
+  auto simulation = make_simulation_of_text(
+      fmt::format("gannet: 1\n"
+                  "materials: {{metal: {{card: al_6061_t6}}, flowing: {{card: "
+                  "copper_ofhc, johnson_cook: {{A: 1 kPa, B: 1 kPa}}}}, gum: "
+                  "{{card: gate_rubber_neo_hookean}}}}\n"
+                  "parts: {}\n"
+                  "output: {{until: 1 s}}\n",
+                  parts));
   Nodes& nodes = simulation->scene.nodes;
   for (Index i = 0; i < nodes.n_owned; ++i) {
     const Line& x = nodes.x[i];
@@ -138,22 +140,24 @@ BenchResult elements_result(Simulation& simulation, Block& block, Pass&& pass) {
 }
 
 /// A sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving. more: keys of the shell.
-BenchResult bench_shell(int n, const char* more = "") {
+/// Of "flowing" every point returns to the yield surface in every step.
+BenchResult bench_shell(int n, const char* more = "", const char* material = "metal") {
   const auto simulation = moving_elements(
-      fmt::format("{{sheet: {{shell: {{material: metal, thickness: 3 mm, points: 5{2}}}, shape: "
+      fmt::format("{{sheet: {{shell: {{material: {3}, thickness: 3 mm, points: 5{2}}}, shape: "
                   "{{plate: {{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}",
-                  0.02 * n, n, more));
+                  0.02 * n, n, more, material));
   return elements_result(
       *simulation, simulation->scene.store.get<ShellBlocks>().list.front(),
       [](auto& block, Nodes& nodes, double dt) { shell_pass(block, nodes, dt); });
 }
 
 /// A block of n x n x n solids of 20 mm, elastic-plastic, moving.
-BenchResult bench_solid(int n, const char* formulation = "one_point") {
+BenchResult bench_solid(int n, const char* formulation = "one_point",
+                        const char* material = "metal") {
   const auto simulation = moving_elements(
-      fmt::format("{{bulk: {{solid: {{material: metal, formulation: {2}}}, shape: {{block: {{from: "
+      fmt::format("{{bulk: {{solid: {{material: {3}, formulation: {2}}}, shape: {{block: {{from: "
                   "[0, 0, 0], to: [{0} m, {0} m, {0} m], elements: [{1}, {1}, {1}]}}}}}}}}",
-                  0.02 * n, n, formulation));
+                  0.02 * n, n, formulation, material));
   return elements_result(
       *simulation, simulation->scene.store.get<SolidBlocks>().list.front(),
       [](auto& block, Nodes& nodes, double dt) { solid_pass(block, nodes, dt); });
@@ -196,6 +200,9 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.shell.flat.400k", [] { return bench_shell(632, ", warping: no"); }},
       {"fe.solid.pass.50k", [] { return bench_solid(37); }},
       {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},
+      {"fe.shell.johnson_cook.50k", [] { return bench_shell(224, "", "flowing"); }},
+      {"fe.solid.johnson_cook.50k", [] { return bench_solid(37, "one_point", "flowing"); }},
+      {"fe.solid.rubber.50k", [] { return bench_solid(37, "one_point", "gum"); }},
       {"fe.solid.pass.400k", [] { return bench_solid(74); }},
       {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
       {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},
