@@ -203,6 +203,7 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.shell.johnson_cook.50k", [] { return bench_shell(224, "", "flowing"); }},
       {"fe.solid.johnson_cook.50k", [] { return bench_solid(37, "one_point", "flowing"); }},
       {"fe.solid.rubber.50k", [] { return bench_solid(37, "one_point", "gum"); }},
+      {"fe.solid.tetrahedra.50k", [] { return bench_solid(20, "tetrahedra"); }},
       {"fe.solid.pass.400k", [] { return bench_solid(74); }},
       {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
       {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},

@@ -20,7 +20,7 @@ SolidConstants make_constants(const ElasticPlastic& material, const SolidSection
     c.history = history_of(c.j2, 6);
   }
   c.rubber = material.rubber;
-  c.hourglass = section.hourglass_coefficient;
+  c.hourglass = section.shape == SolidShape::tetrahedron ? 0 : section.hourglass_coefficient;
   // Of rubber a multiple of its shear modulus, as of a metal: its bulk modulus would make the
   // hourglass patterns far stiffer than bending is.
   c.hourglass_modulus =
@@ -45,7 +45,7 @@ void keep_start(SolidBlock& block, std::span<const Line> x) {
       const int* s = sign[a];
       const int pattern[7] = {
           s[0], s[1], s[2], s[1] * s[2], s[2] * s[0], s[0] * s[1], s[0] * s[1] * s[2]};
-      const bool plane = block.layout.plane;
+      const bool plane = block.layout.plane();
       const Index node =
           plane ? corner_of(block.corners, 4, e, a % 4) : corner_of(block.corners, 8, e, a);
       Vec3 p = 0.125 * xyz(x[static_cast<std::size_t>(node)]);
@@ -66,10 +66,45 @@ double area_of(const SolidBlock& block, Index e, std::span<const Line> x) {
   return 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1)).z();
 }
 
+double tetrahedron_volume(const SolidBlock& block, Index e, std::span<const Line> x) {
+  const auto edge = [&](int k) -> Vec3 {
+    return xyz(x[static_cast<std::size_t>(corner_of(block.corners, 4, e, k))]) -
+           xyz(x[static_cast<std::size_t>(corner_of(block.corners, 4, e, 0))]);
+  };
+  return edge(1).dot(edge(2).cross(edge(3))) / 6;
+}
+
+/// A line for each node that the block may use.
+void make_nodal(SolidBlock& block, std::span<const Index> connectivity) {
+  if (connectivity.empty()) return;
+  const auto [low, high] = std::minmax_element(connectivity.begin(), connectivity.end());
+  block.first_nodal = *low;
+  block.nodal.resize(static_cast<std::size_t>(*high - *low + 1));
+}
+
+/// The volumes around the nodes of tetrahedra in the positions at hand.
+void sum_nodal_volumes(SolidBlock& block, const SolidPass& pass, Isa set) {
+  const auto n = static_cast<Index>(block.nodal.size());
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    std::fill(block.nodal.begin() + begin, block.nodal.begin() + end, Line{});
+  });
+  for_chunks_by_colour(block.colouring, block.n_elements, [&](Index, Index begin, Index end) {
+    set == Isa::avx512 ? avx512::solid_volumes(pass, begin, end)
+                       : avx2::solid_volumes(pass, begin, end);
+  });
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      Line& node = block.nodal[static_cast<std::size_t>(k)];
+      node.z = node.y > 0 ? std::log(node.x / node.y) : 0;
+    }
+  });
+}
+
 }  // namespace
 
 double volume_of(const SolidBlock& block, Index e, std::span<const Line> x) {
-  if (block.layout.plane) return area_of(block, e, x);
+  if (block.layout.plane()) return area_of(block, e, x);
+  if (block.layout.tetrahedra()) return tetrahedron_volume(block, e, x);
   Vec3 a[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   Vec3 g[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int k = 0; k < 8; ++k) {
@@ -93,9 +128,10 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.section = section;
   block.constants = make_constants(material, section);
   assert(section.points == 1 || section.points == 8);
-  block.layout = {material.plastic() ? block.constants.history.n : 0,
-                  section.points == 1 && !section.viscous_hourglass, section.points, section.plane,
-                  material.hyperelastic()};
+  block.layout = {
+      material.plastic() ? block.constants.history.n : 0,
+      section.points == 1 && !section.viscous_hourglass && section.shape != SolidShape::tetrahedron,
+      section.points, section.shape, material.hyperelastic()};
   const int n_corners = block.layout.n_corners();
   block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
   block.corners = corners_by_block(connectivity, n_corners);
@@ -110,6 +146,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
     block.value(e, block.layout.inverse_volume()) = 1 / volume;
   }
   if (block.layout.has_start) keep_start(block, x);
+  if (block.layout.tetrahedra()) make_nodal(block, connectivity);
   block.colouring = colour_chunks(connectivity, n_corners, chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;
@@ -134,7 +171,11 @@ ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) 
                        .f = &nodes.f.data()->x,
                        .corners = block.corners.data(),
                        .state = block.state.data(),
+                       .nodal = block.layout.tetrahedra()
+                                    ? &block.nodal.data()->x - 4 * std::ptrdiff_t{block.first_nodal}
+                                    : nullptr,
                        .dt = dt_old};
+  if (pass.nodal != nullptr) sum_nodal_volumes(block, pass, set);
   for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
     SolidSums& sums = block.sums[static_cast<std::size_t>(chunk)];
     if (set == Isa::avx512) {

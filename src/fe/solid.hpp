@@ -18,8 +18,8 @@ namespace gannet {
 
 /// What makes a volume a solid.
 struct SolidSection {
-  int points = 1;                       ///< of integration: 1, or 8 with a mean dilatation
-  bool plane = false;                   ///< quadrilaterals in plane strain
+  int points = 1;  ///< of integration: 1, or 8 with a mean dilatation
+  SolidShape shape = SolidShape::brick;
   bool viscous_hourglass = false;       ///< else a stiffness that remembers
   double hourglass_coefficient = 0.05;  ///< kappa, see solid_element.hpp
   double linear_viscosity = 0.06;       ///< C2 of the bulk viscosity [-], 0: none
@@ -37,8 +37,10 @@ struct SolidBlock {
   SolidConstants constants;
   SolidLayout layout;
   Index n_elements = 0;
-  Array<Index> corners;  ///< 64 a block of 8 (plane: 32): corner a of lane l at 8 a + l
+  Array<Index> corners;  ///< corner a of lane l at 8 a + l; 8 layout.n_corners() a block of 8
   Array<double> state;   ///< layout.n_values() * 8 a block
+  Array<Line> nodal;     ///< of tetrahedra: of nodes first_nodal and on, see SolidPass
+  Index first_nodal = 0;
   ChunkColours colouring;
   std::vector<SolidSums> sums;  ///< one a chunk, of the last pass
   Array<double> stress_shown;   ///< 6 an element, mean of its points, by show_state() [Pa]
@@ -68,9 +70,9 @@ struct SolidBlocks {
 inline constexpr Index solid_chunk = 512;
 
 /// Sets a block up, stress-free in the positions at hand.
-/// connectivity: 8 node indices an element (plane: 4, counter-clockwise), in the order of VTK. x:
-/// positions of the nodes [m]. Throws std::invalid_argument that names the element where one has no
-/// volume (or a negative one).
+/// connectivity: the node indices of each element, 8, or 4 (of quadrilaterals counter-clockwise),
+/// in the order of VTK. x: positions of the nodes [m]. Throws std::invalid_argument that names the
+/// element where one has no volume (or a negative one).
 SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const Line> x,
                             const ElasticPlastic& material, const SolidSection& section,
                             Index chunk = solid_chunk);
@@ -79,7 +81,7 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
 /// thickness in a plane case.
 double volume_of(const SolidBlock& block, Index e, std::span<const Line> x);
 
-/// Adds rho V0/8 (plane: /4) to the mass of each corner of each element.
+/// Adds rho V0 over the number of corners to the mass of each corner of each element.
 void add_solid_masses(const SolidBlock& block, Nodes& nodes);
 
 /// One pass: stress to n, forces at n added to nodes.f (see solid_kernel.hpp). dt_old: t(n) -

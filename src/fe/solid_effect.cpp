@@ -43,9 +43,10 @@ std::vector<Key> solid_keys() {
           {.name = "formulation",
            .kind = Kind::choice,
            .text = "one_point: fast, with hourglass control; eight_points: a mean dilatation, for "
-                   "bending and nearly incompressible solids",
+                   "bending and nearly incompressible solids; tetrahedra: six for each brick, with "
+                   "the dilatation of their nodes",
            .fallback = "one_point",
-           .choices = {"one_point", "eight_points"}},
+           .choices = {"one_point", "eight_points", "tetrahedra"}},
           {.name = "hourglass",
            .kind = Kind::map,
            .text = "control of the modes that one point of integration does not see",
@@ -73,8 +74,17 @@ Schema schema() {
   return element_schema("solid", "the part is made of solid elements", solid_keys());
 }
 
+bool has_formulation(const Keys& solid, const char* name) {
+  return solid.has("formulation") && solid.word("formulation") == name;
+}
+
 /// The cells of a part: of its shape, or in a plane case the quadrilaterals of a file.
 VolumeMesh mesh_of(const Keys& part, int dimension) {
+  if (has_formulation(part.map("solid"), "tetrahedra")) {
+    if (dimension == 3) return tetrahedra_of(volume_mesh(part, dimension));
+    part.map("solid").complain("formulation", "tetrahedra need three dimensions");
+    return {};
+  }
   if (dimension == 3 || !part.has("mesh")) return volume_mesh(part, dimension);
   SurfaceMesh file = surface_mesh(part);
   return {std::move(file.points), std::move(file.quads), 4};
@@ -84,15 +94,17 @@ void add_parts(const Keys& root, Draft& draft) {
   for (const Keys& part : parts_with(root, "solid")) {
     const VolumeMesh mesh = mesh_of(part, draft.dimension);
     if (mesh.empty()) continue;  // the mesh has complained
-    PartDraft p = element_draft(part, "solid",
-                                mesh.nodes_per_cell == 4 ? Cell::quad : Cell::hexahedron, false);
+    const Cell of_four = draft.dimension == 2 ? Cell::quad : Cell::tetrahedron;
+    PartDraft p =
+        element_draft(part, "solid", mesh.nodes_per_cell == 4 ? of_four : Cell::hexahedron, false);
     set_mesh(part, mesh.points, mesh.cells, p);
     draft.parts.push_back(std::move(p));
   }
 }
 
-bool has_eight_points(const Keys& solid) {
-  return solid.has("formulation") && solid.word("formulation") == "eight_points";
+/// Whether its elements have modes that they do not see.
+bool has_hourglass(const Keys& solid) {
+  return !has_formulation(solid, "eight_points") && !has_formulation(solid, "tetrahedra");
 }
 
 /// Unless said: viscous where the solid may yield, since an elastic force does not flow with it.
@@ -103,15 +115,22 @@ bool resists_viscously(const Keys& solid, const ElasticPlastic& material) {
   return material.plastic();
 }
 
-SolidSection read_section(const Keys& solid, const ElasticPlastic& material, bool plane) {
+SolidShape shape_of(Cell cell) {
+  if (cell == Cell::quad) return SolidShape::quadrilateral;
+  return cell == Cell::tetrahedron ? SolidShape::tetrahedron : SolidShape::brick;
+}
+
+SolidSection read_section(const Keys& solid, const ElasticPlastic& material, Cell cell) {
   SolidSection section;
-  section.plane = plane;
+  section.shape = shape_of(cell);
   section.viscous_hourglass = resists_viscously(solid, material);
-  if (has_eight_points(solid)) {
-    section.points = 8;
-    if (solid.given("hourglass")) {
-      solid.complain("hourglass", "has no meaning with eight points, which see every mode");
-    }
+  if (has_formulation(solid, "eight_points")) section.points = 8;
+  if (!has_hourglass(solid) && solid.given("hourglass")) {
+    solid.complain("hourglass", "has no meaning with " + solid.word("formulation") +
+                                    ": they have no modes that they do not see");
+  }
+  if (cell == Cell::tetrahedron && material.hyperelastic()) {
+    solid.complain("material", "is rubber, which tetrahedra do not know yet");
   }
   if (solid.has("hourglass")) {
     const Keys hourglass = solid.map("hourglass");
@@ -169,7 +188,7 @@ void state(const Keys& root, Scene& scene) {
     auto& list = scene.store.get<SolidBlocks>().list;
     try {
       list.push_back(make_solid_block(part.connectivity, scene.nodes.x, material,
-                                      read_section(solid, material, part.cell == Cell::quad)));
+                                      read_section(solid, material, part.cell)));
     } catch (const std::invalid_argument& e) {
       keys.complain("solid", e.what());
       continue;
@@ -203,7 +222,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     ElementPart part{.kind = "solid",
                      .part = block.part,
                      .plastic = block.material.plastic(),
-                     .hourglass = block.layout.n_points == 1,
+                     .hourglass = block.layout.n_points == 1 && !block.layout.tetrahedra(),
                      .viscous = true,
                      .eroded = block.material.failure.given()};
     part.pass = [&scene, &block](const Step& step) {
@@ -225,7 +244,7 @@ std::vector<Choice> choices(const Keys& root, Scene&) {
   std::vector<Choice> list;
   for (const Keys& part : parts_with(root, "solid")) {
     const Keys solid = part.map("solid");
-    if (has_eight_points(solid)) continue;
+    if (!has_hourglass(solid)) continue;
     if (solid.has("hourglass") && solid.map("hourglass").has("type")) continue;
     const std::string name = solid.word("material");
     const bool plastic = read_elastic_plastic(root.map("materials").map(name)).plastic();

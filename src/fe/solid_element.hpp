@@ -34,6 +34,15 @@
 // corners 4-7 are its corners 0-3, the patterns that are odd in zeta vanish but for a3 = (0, 0,
 // 1/2) of the positions, and bounds of frequencies leave out what only acts across the plane.
 //
+// A tetrahedron is the image of a brick without hourglass patterns: a_k = s (x_k - x_0) with
+// 48 s^3 = 1 gives V = 8 [a1 a2 a3] = [x1-x0 x2-x0 x3-x0]/6. One such element is too stiff where
+// the volume hardly changes, so its dilatation is the mean of that of its nodes (Bonet & Burton
+// 1998, Commun. Numer. Methods Eng. 14, 437-449): with V_a = sum_e V_e/4 over the elements around
+// node a,
+//   ln J_e = 1/4 sum_a ln(V_a/V0_a),   e = dev(sym L) + (ln J_e(n) - ln J_e(n-1))/3 I,
+// whose adjoint, a pressure that is the mean of those of the nodes, the rate of ln J_e gives by
+// itself.
+//
 // For *.isa.cpp files only.
 #pragma once
 
@@ -91,6 +100,23 @@ GANNET_INLINE SolidModes plane_modes_of(const Vec8x3 f[4], const Vec8x3& across)
   c.g[2] = scaled((f[0] - f[1]) + (f[2] - f[3]), quarter);
   c.g[3] = zero;
   return c;
+}
+
+/// s with 48 s^3 = 1.
+constexpr double tetrahedron_scale = 0.27516060407455223;
+
+/// The same of a tetrahedron.
+GANNET_INLINE SolidModes tetrahedron_modes_of(const Vec8x3 f[4]) {
+  const Vec8x3 zero{Vec8(0.0), Vec8(0.0), Vec8(0.0)};
+  SolidModes c{{zero, zero, zero}, {zero, zero, zero, zero}};
+  for (int k = 0; k < 3; ++k) c.a[k] = scaled(f[k + 1] - f[0], Vec8(tetrahedron_scale));
+  return c;
+}
+
+/// What forces on the coefficients of a tetrahedron are at its corners.
+GANNET_INLINE void tetrahedron_corners_of(const SolidModes& F, Vec8x3 f[4]) {
+  for (int k = 0; k < 3; ++k) f[k + 1] = scaled(F.a[k], Vec8(tetrahedron_scale));
+  f[0] = -(f[1] + f[2] + f[3]);
 }
 
 /// What forces on the coefficients are at corners 0-3 where both faces hang on them.
@@ -237,7 +263,24 @@ struct GramBound {
   Vec8 largest;
 };
 
-GANNET_INLINE GramBound gram_bound(const SolidGeometry& G, bool plane) {
+/// Of a tetrahedron, whose four gradients are known.
+GANNET_INLINE GramBound tetrahedron_gram_bound(const SolidGeometry& G) {
+  const Vec8x3 D[4] = {G.a[0], G.a[1], G.a[2], G.a[0] + G.a[1] + G.a[2]};
+  Symmetric<Vec8> sum{Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0)};
+  for (const Vec8x3& d : D) {
+    sum.xx += d.x * d.x;
+    sum.yy += d.y * d.y;
+    sum.zz += d.z * d.z;
+    sum.xy += d.x * d.y;
+    sum.yz += d.y * d.z;
+    sum.zx += d.z * d.x;
+  }
+  const Vec8 s2(tetrahedron_scale * tetrahedron_scale);
+  return {s2 * (sum.xx + sum.yy + sum.zz), s2 * largest_eigenvalue_bound(sum)};
+}
+
+GANNET_INLINE GramBound gram_bound(const SolidGeometry& G, SolidShape shape) {
+  if (shape == SolidShape::tetrahedron) return tetrahedron_gram_bound(G);
   Symmetric<Vec8> sum{Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0), Vec8(0.0)};
   for (int k = 0; k < 6; ++k) {
     const Vec8x3& D = k < 3 ? G.a[k] : G.g[k - 3];
@@ -249,7 +292,8 @@ GANNET_INLINE GramBound gram_bound(const SolidGeometry& G, bool plane) {
     sum.zx += D.z * D.x;
   }
   const Vec8 eighth(0.125);
-  if (plane) return {eighth * (sum.xx + sum.yy), eighth * largest_in_plane(sum)};
+  if (shape == SolidShape::quadrilateral)
+    return {eighth * (sum.xx + sum.yy), eighth * largest_in_plane(sum)};
   return {eighth * (sum.xx + sum.yy + sum.zz), eighth * largest_eigenvalue_bound(sum)};
 }
 

@@ -243,20 +243,21 @@ GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& 
   return F;
 }
 
-/// Bound of the largest squared frequency of each element [1/s^2], from its own lumped mass M/8 a
-/// corner. With G the Gram matrix, (tr d)^2 <= tr G |v|^2 and d : d <= largest(G) |v|^2, so
-///   omega^2 <= 8/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + 8 largest(G) sum |g|^2/V^2),
+/// Bound of the largest squared frequency of each element [1/s^2], from its own lumped mass M/n a
+/// corner (n = 8; a tetrahedron's 4). With G the Gram matrix, (tr d)^2 <= tr G |v|^2 and d : d <=
+/// largest(G) |v|^2, so
+///   omega^2 <= n/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + n largest(G) sum |g|^2/V^2),
 /// exact for a cube (3 K) and for a flat element (lambda + 2 mu).
-GANNET_INLINE Vec8 solid_omega2(Vec8 lambda, Vec8 two_mu, const GramBound& gram,
+GANNET_INLINE Vec8 solid_omega2(SolidShape shape, Vec8 lambda, Vec8 two_mu, const GramBound& gram,
                                 const SolidModes& x, Vec8 inverse_volume, Vec8 inverse_mass,
                                 Vec8 k_h) {
   Vec8 g2(0.0);
   for (const Vec8x3& g : x.g) g2 += dot(g, g);
-  const Vec8 eight(8.0);
+  const Vec8 n(shape == SolidShape::tetrahedron ? 4.0 : 8.0);
   const Vec8 hourglass =
-      k_h * (Vec8(1.0) + eight * gram.largest * g2 * inverse_volume * inverse_volume);
+      k_h * (Vec8(1.0) + n * gram.largest * g2 * inverse_volume * inverse_volume);
   return inverse_mass *
-         (eight * inverse_volume * (lambda * gram.trace + two_mu * gram.largest) + hourglass);
+         (n * inverse_volume * (lambda * gram.trace + two_mu * gram.largest) + hourglass);
 }
 
 }  // namespace gannet::GANNET_ISA_NS

@@ -26,16 +26,25 @@ struct SolidConstants {
   double quadratic_viscosity = 1.2;  ///< C1 [-]
 };
 
+/// Cells that solids are made of.
+enum class SolidShape {
+  brick,          ///< eight corners
+  quadrilateral,  ///< four corners, in plane strain, one unit thick
+  tetrahedron     ///< four corners; its dilatation is the mean of its nodes'
+};
+
 /// Where the numbers of an element stand in its block: number k of lane l is at
 /// state[(block * n_values + k) * 8 + l].
 struct SolidLayout {
-  int n_history = 0;       ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
-  bool remembers = true;   ///< hourglass forces are kept: control by stiffness
-  int n_points = 1;        ///< 1 or 8
-  bool plane = false;      ///< quadrilaterals in plane strain, one unit thick
+  int n_history = 0;      ///< numbers of a point behind its stress: 0 elastic, 1 linear hardening
+  bool remembers = true;  ///< hourglass forces are kept: control by stiffness
+  int n_points = 1;       ///< 1 or 8
+  SolidShape shape = SolidShape::brick;
   bool has_start = false;  ///< the shape at the start is kept
   [[nodiscard]] bool plastic() const { return n_history > 0; }
-  [[nodiscard]] int n_corners() const { return plane ? 4 : 8; }
+  [[nodiscard]] bool plane() const { return shape == SolidShape::quadrilateral; }
+  [[nodiscard]] bool tetrahedra() const { return shape == SolidShape::tetrahedron; }
+  [[nodiscard]] int n_corners() const { return shape == SolidShape::brick ? 8 : 4; }
   [[nodiscard]] int per_point() const { return 6 + n_history; }
   /// sigma_xx, yy, zz, xy, yz, zx of a point [Pa]
   [[nodiscard]] int stress(int point) const { return point * per_point(); }
@@ -47,7 +56,9 @@ struct SolidLayout {
   [[nodiscard]] int hourglass() const { return inverse_volume() + 1; }
   /// The seven coefficients of the positions at the start, x, y, z each [m]; where they are kept
   [[nodiscard]] int start() const { return hourglass() + (remembers ? 12 : 0); }
-  [[nodiscard]] int n_values() const { return start() + (has_start ? 21 : 0); }
+  /// Mean of ln(V/V0) over the nodes, of tetrahedra [-]
+  [[nodiscard]] int dilatation() const { return start() + (has_start ? 21 : 0); }
+  [[nodiscard]] int n_values() const { return dilatation() + (tetrahedra() ? 1 : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
@@ -57,8 +68,11 @@ struct SolidPass {
   const double* x = nullptr;              ///< lines: position at n [m]
   const double* v = nullptr;              ///< lines: velocity at n-1/2 [m/s]
   double* f = nullptr;                    ///< lines: forces are added [N]
-  const std::int32_t* corners = nullptr;  ///< 64 a block (plane: 32): corner a of lane l at 8 a + l
+  const std::int32_t* corners = nullptr;  ///< corner a of lane l at 8 a + l; 8 n_corners() a block
   double* state = nullptr;
+  /// Lines, of tetrahedra: x a quarter of the volumes around a node [m^3], y of those at the start,
+  /// z ln(x/y).
+  double* nodal = nullptr;
   double dt = 0;  ///< t(n) - t(n-1) [s]
 };
 
@@ -79,11 +93,14 @@ struct SolidSums {
 /// configuration x(n) - v dt/2, stress to n, forces at the geometry of n added to f.
 /// Needs valid node indices in every lane, arrays aligned to 64 bytes. Throws nothing. The element:
 /// solid_element.hpp.
+/// Of tetrahedra, before solid_force(): adds their volumes at n and at the start to `nodal`.
 namespace avx2 {
+void solid_volumes(const SolidPass& pass, std::int32_t begin, std::int32_t end);
 void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
-}
+}  // namespace avx2
 namespace avx512 {
+void solid_volumes(const SolidPass& pass, std::int32_t begin, std::int32_t end);
 void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
-}
+}  // namespace avx512
 
 }  // namespace gannet

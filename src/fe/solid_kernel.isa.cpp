@@ -22,7 +22,7 @@ GANNET_INLINE void call_for(const SolidPass& pass, std::int32_t block) {
   for (int k = 0; k < n_values; ++k) __builtin_prefetch(state + 8 * k, 1);
   const std::int32_t* corners = corners_of_block(pass, block);
   constexpr int some[2][4] = {{0, 2, 5, 7}, {0, 1, 2, 3}};
-  for (const int a : some[pass.layout.plane ? 1 : 0]) {
+  for (const int a : some[pass.layout.n_corners() == 4 ? 1 : 0]) {
     for (int lane = 0; lane < 8; ++lane) {
       const std::int64_t line = 4 * static_cast<std::int64_t>(corners[8 * a + lane]);
       __builtin_prefetch(pass.x + line);
@@ -90,14 +90,12 @@ struct SolidMotion {
 };
 
 /// across: half the distance of the faces of a plane case, for positions; 0 for other fields.
-GANNET_INLINE SolidModes gather_modes(const double* base, const std::int32_t* corners, bool plane,
-                                      double across) {
+GANNET_INLINE SolidModes gather_modes(const double* base, const std::int32_t* corners,
+                                      const SolidLayout& layout, double across) {
   Vec8x3 at_corner[8];
-  if (plane) {
-    for (int a = 0; a < 4; ++a) at_corner[a] = gather_corner(base, corners, a);
-    return plane_modes_of(at_corner, {Vec8(0.0), Vec8(0.0), Vec8(across)});
-  }
-  for (int a = 0; a < 8; ++a) at_corner[a] = gather_corner(base, corners, a);
+  for (int a = 0; a < layout.n_corners(); ++a) at_corner[a] = gather_corner(base, corners, a);
+  if (layout.tetrahedra()) return tetrahedron_modes_of(at_corner);
+  if (layout.plane()) return plane_modes_of(at_corner, {Vec8(0.0), Vec8(0.0), Vec8(across)});
   return modes_of(at_corner);
 }
 
@@ -105,9 +103,8 @@ GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t
                                        const double* state) {
   const SolidConstants& c = *pass.constants;
   SolidMotion m;
-  const bool plane = pass.layout.plane;
-  m.x = gather_modes(pass.x, corners, plane, 0.5);
-  m.v = gather_modes(pass.v, corners, plane, 0);
+  m.x = gather_modes(pass.x, corners, pass.layout, 0.5);
+  m.v = gather_modes(pass.v, corners, pass.layout, 0);
   const Vec8 half_dt(0.5 * pass.dt);
   for (int k = 0; k < 3; ++k) m.x_half.a[k] = m.x.a[k] - scaled(m.v.a[k], half_dt);
   for (int k = 0; k < 4; ++k) m.x_half.g[k] = m.x.g[k] - scaled(m.v.g[k], half_dt);
@@ -115,7 +112,7 @@ GANNET_INLINE SolidMotion solid_motion(const SolidPass& pass, const std::int32_t
   m.L = mean_gradient(m.half, m.v, Vec8(pass.dt) * reciprocal(m.half.volume));
   m.e = symmetric_part(m.L);
   m.now = solid_geometry(m.x);
-  m.gram = gram_bound(m.now, plane);
+  m.gram = gram_bound(m.now, pass.layout.shape);
   m.inverse_V0 = Vec8::load(state + 8 * pass.layout.inverse_volume());
   const auto there = less(Vec8(0.0), m.inverse_V0);
   m.shrunk_to = select(there, min(m.now.volume, m.half.volume) * m.inverse_V0, Vec8(1.0));
@@ -203,7 +200,11 @@ GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
     forget_collapsed(pass.layout, m.alive, state);
   }
   Vec8x3 at_corner[8];
-  pass.layout.plane ? plane_corners_of(F, at_corner) : corners_of(F, at_corner);
+  if (pass.layout.tetrahedra()) {
+    tetrahedron_corners_of(F, at_corner);
+  } else {
+    pass.layout.plane() ? plane_corners_of(F, at_corner) : corners_of(F, at_corner);
+  }
   for (int a = 0; a < pass.layout.n_corners(); ++a) {
     scatter_corner(pass.f, corners, a, at_corner[a]);
   }
@@ -243,6 +244,39 @@ GANNET_INLINE auto keeper(const SolidPass& pass, const double* state) {
   }
 }
 
+/// The mean of the logarithms of volume changes around the corners of tetrahedra; what it has
+/// become since n-1 is the dilatation of the step. Kept in the state.
+GANNET_INLINE Vec8 nodal_dilatation(const SolidPass& pass, const std::int32_t* corners,
+                                    double* state) {
+  Vec8 mean(0.0);
+  for (int a = 0; a < 4; ++a) mean += gather_corner(pass.nodal, corners, a).z;
+  mean = Vec8(0.25) * mean;
+  double* kept = state + 8 * pass.layout.dilatation();
+  const Vec8 change = mean - Vec8::load(kept);
+  mean.store(kept);
+  return change;
+}
+
+/// solid_stress() of tetrahedra: their dilatation is that of their nodes, and the work that of
+/// their own motion.
+template <PointLaw law>
+GANNET_INLINE Symmetric<Vec8> tetrahedron_stress(const SolidPass& pass, const SolidMotion& m,
+                                                 const std::int32_t* corners, const Tensor& R,
+                                                 double* state, J2Work<Vec8>& work) {
+  const Vec8 trace = m.e.xx + m.e.yy + m.e.zz;
+  const Vec8 dilatation = m.of_alive(nodal_dilatation(pass, corners, state));
+  const Vec8 change = Vec8(1.0 / 3.0) * (dilatation - trace);
+  Symmetric<Vec8> e = m.e;
+  e.xx += change;
+  e.yy += change;
+  e.zz += change;
+  const Symmetric<Vec8> old = load_stress(state);
+  const Symmetric<Vec8> sigma = solid_stress<law>(*pass.constants, pass.dt, state, e, R, work);
+  const Vec8 twice_traces = old.xx + old.yy + old.zz + sigma.xx + sigma.yy + sigma.zz;
+  work.internal -= Vec8(0.5) * twice_traces * change;
+  return sigma;
+}
+
 /// One block of eight elements with one point.
 template <PointLaw law>
 GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, SolidLaneSums& sums) {
@@ -260,7 +294,8 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
     now = {rubber.now.bulk - Vec8(2.0 / 3.0) * rubber.now.shear, Vec8(2.0) * rubber.now.shear};
   } else {
     J2Work<Vec8> work;
-    sigma = solid_stress<law>(c, pass.dt, state, m.e, R, work);
+    sigma = pass.layout.tetrahedra() ? tetrahedron_stress<law>(pass, m, corners, R, state, work)
+                                     : solid_stress<law>(c, pass.dt, state, m.e, R, work);
     add_work<law>(m, work, m.half.volume, sums);
   }
   const auto keep = keeper<law>(pass, state);
@@ -273,8 +308,8 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
   add_hourglass(pass, m, R, k_h, keep, state, sums, Q);
   SolidModes F = solid_forces(m.now, m.x, sigma, Q, m.inverse_volume);
   if constexpr (law == PointLaw::hyperelastic) add_forces(rubber, F);
-  const Vec8 omega2 =
-      solid_omega2(now.lambda, now.two_mu, m.gram, m.x, m.inverse_volume, m.inverse_mass, k_h);
+  const Vec8 omega2 = solid_omega2(pass.layout.shape, now.lambda, now.two_mu, m.gram, m.x,
+                                   m.inverse_volume, m.inverse_mass, k_h);
   if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
   finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
 }
@@ -331,7 +366,7 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
     const PointGradient now = point_gradient(m.x, at);
     const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
     mean_stress += p * now.det;
-    largest += largest_gram(now, at, pass.layout.plane) * now.det;
+    largest += largest_gram(now, at, pass.layout.plane()) * now.det;
     add_point_forces(now, at, sigma, p, F);
   }
   const auto keep = keeper<law>(pass, state);
@@ -359,6 +394,26 @@ GANNET_INLINE void solid_blocks(const SolidPass& pass, std::int32_t begin, std::
 }
 
 }  // namespace
+
+__attribute__((flatten)) void solid_volumes(const SolidPass& pass, std::int32_t begin,
+                                            std::int32_t end) {
+  const Vec8 quarter(0.25);
+  for (std::int32_t block = begin; block < end; ++block) {
+    const std::int32_t* corners = corners_of_block(pass, block);
+    const double* state =
+        pass.state + static_cast<std::int64_t>(block) * pass.layout.n_values() * 8;
+    const SolidModes x = gather_modes(pass.x, corners, pass.layout, 0);
+    const Vec8 volume = Vec8(8.0) * dot(x.a[0], cross(x.a[1], x.a[2]));
+    const Vec8 inverse_V0 = Vec8::load(state + 8 * pass.layout.inverse_volume());
+    const auto there = less(Vec8(0.0), inverse_V0);
+    const Vec8 V0 = select(there, reciprocal(select(there, inverse_V0, Vec8(1.0))), Vec8(0.0));
+    // An element that has collapsed is seen later; until then its nodes have a volume.
+    const Vec8 least = Vec8(pass.constants->smallest_ratio) * V0;
+    const Vec8x3 share{quarter * select(there, max(volume, least), Vec8(0.0)), quarter * V0,
+                       Vec8(0.0)};
+    for (int a = 0; a < 4; ++a) scatter_corner(pass.nodal, corners, a, share);
+  }
+}
 
 __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t begin,
                                           std::int32_t end, SolidSums& out) {

@@ -1,5 +1,6 @@
 #include "mesh/volume_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -179,6 +180,25 @@ VolumeMesh rod_volume(const Vec3& from, const Vec3& to, double radius, std::arra
   return extruded(disc(n[0], n[1]), n[2], [&](const Vec3& p, double s) {
     return Vec3(from + s * axis + radius * (turn * p));
   });
+}
+
+VolumeMesh tetrahedra_of(const VolumeMesh& hexahedra) {
+  // Counter-clockwise seen from inside, so that a cone over a triangle of one has a volume above 0.
+  constexpr int faces[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                               {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  VolumeMesh mesh{.points = hexahedra.points, .nodes_per_cell = 4};
+  for (std::size_t c = 0; c + 8 <= hexahedra.cells.size(); c += 8) {
+    const Index* corner = &hexahedra.cells[c];
+    const Index top = *std::min_element(corner, corner + 8);
+    for (const auto& face : faces) {
+      Index f[4];
+      for (int k = 0; k < 4; ++k) f[k] = corner[face[k]];
+      if (std::find(f, f + 4, top) != f + 4) continue;
+      std::rotate(f, std::min_element(f, f + 4), f + 4);
+      mesh.cells.insert(mesh.cells.end(), {f[0], f[1], f[2], top, f[0], f[2], f[3], top});
+    }
+  }
+  return mesh;
 }
 
 std::vector<Key> volume_shape_keys() {

@@ -15,7 +15,7 @@ namespace gannet {
 struct VolumeMesh {
   std::vector<Vec3> points;  ///< [m]
   std::vector<Index> cells;  ///< nodes_per_cell indices into points a cell, in the order of VTK
-  int nodes_per_cell = 8;    ///< 8: hexahedra, 4: quadrilaterals of a plane case
+  int nodes_per_cell = 8;    ///< 8: hexahedra, 4: tetrahedra; quadrilaterals of a plane case
   [[nodiscard]] bool empty() const { return cells.empty(); }
 };
 
@@ -36,6 +36,11 @@ Vec3 mapped_point(std::span<const Vec3> corners, const Vec3& p);
 /// bulge halfway to the circle, so that no corner of a cell comes near 180 degrees.
 /// from, to: middles of the ends [m]; radius > 0 [m]; n >= 1. Throws nothing.
 VolumeMesh rod_volume(const Vec3& from, const Vec3& to, double radius, std::array<int, 3> n);
+
+/// Six tetrahedra for each hexahedron: cones from its corner of the smallest number over the three
+/// faces that do not have it, each cut along the diagonal from its own smallest corner. So
+/// hexahedra that share a face cut it alike. Throws nothing; an empty mesh stays empty.
+VolumeMesh tetrahedra_of(const VolumeMesh& hexahedra);
 
 /// Keys of these shapes, under `shape` of a part.
 std::vector<Key> volume_shape_keys();

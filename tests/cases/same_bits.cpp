@@ -311,7 +311,7 @@ TEST_CASE("same bits: waves over a bed, sponge and relaxation, 1, 2, 3 and 5 thr
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
-  const std::string formulation = GENERATE("one_point", "eight_points");
+  const std::string formulation = GENERATE("one_point", "eight_points", "tetrahedra");
   check_threads(solids_sample(formulation));
   check_restart(solids_sample(formulation));
 }

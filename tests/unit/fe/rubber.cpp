@@ -254,7 +254,7 @@ TEST_CASE("rubber: a plane case is the solid whose faces are held", "[fe]") {
     std::vector<Vec3> corners{{0, 0, 0}, {0.1, 0.01, 0}, {0.11, 0.1, 0}, {-0.01, 0.09, 0}};
     Solid s = solid_of(corners, {0, 1, 2, 3});
     SolidSection section = plain(points);
-    section.plane = true;
+    section.shape = SolidShape::quadrilateral;
     SolidBlock block = make_solid_block(s.cells, s.nodes.x, rubber(law), section);
     Mat3 F;
     F << 1.4, 0.3, 0, -0.2, 0.8, 0, 0, 0, 1;
