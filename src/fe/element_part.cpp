@@ -40,6 +40,12 @@ Schema element_schema(const char* kind, const char* text, std::vector<Key> keys)
   s.push_back(
       {"parts.*", {.name = kind, .kind = Kind::map, .text = text, .keys = std::move(keys)}});
   s.push_back({"parts.*", initial_velocity_key()});
+  s.push_back({"parts.*",
+               {.name = "map",
+                .kind = Kind::vector_function,
+                .unit = dim::length,
+                .text = "where the points of the shape or mesh go: formulas of their x, y and z",
+                .variables = {"x", "y", "z"}}});
   return s;
 }
 
@@ -54,8 +60,28 @@ PartDraft element_draft(const Keys& part, const char* kind, Cell cell, bool rota
   return draft;
 }
 
+namespace {
+
+/// Moves the points where `map` says. Complains where one of them goes nowhere.
+void move_points(const Keys& part, std::vector<Vec3>& points) {
+  if (!part.has("map")) return;
+  const VectorFunction place = part.vector_function("map");
+  for (Vec3& x : points) {
+    const Vec3 moved = value_at(place, 0, x);
+    if (!moved.allFinite()) {
+      part.complain(
+          "map", fmt::format("is not finite at ({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()));
+      return;
+    }
+    x = moved;
+  }
+}
+
+}  // namespace
+
 void set_mesh(const Keys& part, std::vector<Vec3> points, std::vector<Index> cells,
               PartDraft& draft) {
+  move_points(part, points);
   draft.points = std::move(points);
   draft.connectivity = std::move(cells);
   draft.velocity = initial_velocity(part, draft.points);

@@ -57,15 +57,16 @@ std::string text_of_element(const Scene& scene, int part, Index element);
 /// The parts of a case that have the key `kind`, in file order.
 std::vector<Keys> parts_with(const Keys& root, const char* kind);
 
-/// The keys of a part of elements: those of solids under "materials.*", of its geometry, of its
-/// start velocity, and parts.NAME.<kind> with `keys`.
+/// The keys of a part of elements: those of solids under "materials.*", of its geometry, `map`, of
+/// its start velocity, and parts.NAME.<kind> with `keys`.
 Schema element_schema(const char* kind, const char* text, std::vector<Key> keys);
 
 /// A part of a case as a draft without a mesh: name, place, material (where one is named) and kind.
 /// The caller says what its cells are and passes on the mesh with set_mesh().
 PartDraft element_draft(const Keys& part, const char* kind, Cell cell, bool rotations);
 
-/// Gives the draft its points [m] and cells, and the start velocity of the part there.
+/// Gives the draft its points [m], moved by the part's `map`, and cells, and the start velocity of
+/// the part there.
 void set_mesh(const Keys& part, std::vector<Vec3> points, std::vector<Index> cells,
               PartDraft& draft);
 
