@@ -40,6 +40,8 @@ ShellConstants make_constants(const ElasticPlastic& material, const ShellSection
   c.membrane_modulus = material.E / (1 - std::abs(material.nu));
   c.nodal_mass_factor = material.rho * section.thickness / corners_per(section.kind);
   c.thickness = section.thickness;
+  c.offset = section.offset;
+  c.smallest_alpha = section.thickness * section.thickness / 12 + section.offset * section.offset;
   return c;
 }
 
@@ -172,12 +174,11 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
 }
 
 void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
-  const double t = block.section.thickness;
   const int n_corners = block.n_corners();
   for (Index e = 0; e < block.n_elements; ++e) {
     const double area = 1 / block.value(e, block.layout.inverse_area());
     const double mass = block.constants.nodal_mass_factor * area;
-    const double alpha = std::max(t * t / 12, area / (n_corners == 3 ? 6 : 8));
+    const double alpha = std::max(block.constants.smallest_alpha, area / (n_corners == 3 ? 6 : 8));
     for (int a = 0; a < n_corners; ++a) {
       const auto node = static_cast<std::size_t>(corner_of(block.corners, n_corners, e, a));
       nodes.x[node].w += mass;
@@ -272,19 +273,61 @@ std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& no
   return steps;
 }
 
+namespace {
+
+/// A symmetric tensor in the plane of the element, with its shear to the normal, as the six global
+/// components xx, yy, zz, xy, yz, xz.
+void write_global(const Mat3& axes, const Mat3& local, double* out) {
+  const Mat3 s = axes * local * axes.transpose();
+  out[0] = s(0, 0);
+  out[1] = s(1, 1);
+  out[2] = s(2, 2);
+  out[3] = s(0, 1);
+  out[4] = s(1, 2);
+  out[5] = s(0, 2);
+}
+
+}  // namespace
+
 void show_stress(ShellBlock& block, std::span<const Line> x) {
   block.stress_shown.resize(6 * static_cast<std::size_t>(block.n_elements));
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
-      const Mat3 R = frame_of(block, e, x).axes;
-      const Mat3 s = R * middle_stress(block, e) * R.transpose();
-      double* out = &block.stress_shown[6 * static_cast<std::size_t>(e)];
-      out[0] = s(0, 0);
-      out[1] = s(1, 1);
-      out[2] = s(2, 2);
-      out[3] = s(0, 1);
-      out[4] = s(1, 2);
-      out[5] = s(0, 2);
+      write_global(frame_of(block, e, x).axes, middle_stress(block, e),
+                   &block.stress_shown[6 * static_cast<std::size_t>(e)]);
+    }
+  });
+}
+
+void show_section_forces(ShellBlock& block, std::span<const Line> x) {
+  const ShellLayout& layout = block.layout;
+  const int in_plane = layout.in_plane();
+  block.forces_shown.resize(15 * static_cast<std::size_t>(block.n_elements));
+  parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
+    for (Index e = begin; e < end; ++e) {
+      const double t = block.value(e, layout.thickness());
+      Mat3 N = Mat3::Zero();
+      Mat3 M = Mat3::Zero();
+      Vec3 Q = Vec3::Zero();
+      for (int g = 0; g < in_plane; ++g) {
+        for (int k = 0; k < layout.n_points; ++k) {
+          const PlaneStress<double> sigma = stress_at(block, e, g * layout.n_points + k);
+          Mat3 plane = Mat3::Zero();
+          plane.topLeftCorner<2, 2>() << sigma.xx, sigma.xy, sigma.xy, sigma.yy;
+          N += block.constants.weight[k] * t / in_plane * plane;
+          M += block.constants.weight[k] * t / in_plane * (0.5 * t * block.constants.point[k]) *
+               plane;
+        }
+        const double share = block.constants.shear_factor * t / in_plane;
+        Q.x() += share * block.value(e, layout.shear() + 2 * g);
+        Q.y() += share * block.value(e, layout.shear() + 2 * g + 1);
+      }
+      const Mat3 axes = frame_of(block, e, x).axes;
+      double* out = &block.forces_shown[15 * static_cast<std::size_t>(e)];
+      write_global(axes, N, out);
+      write_global(axes, M, out + 6);
+      const Vec3 global = axes * Q;
+      for (int d = 0; d < 3; ++d) out[12 + d] = global[d];
     }
   });
 }

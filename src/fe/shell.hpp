@@ -29,6 +29,7 @@ struct ShellSection {
   double shear_factor = 5.0 / 6.0;      ///< kappa
   bool thickness_changes = false;
   bool warping = true;     ///< of the one-point element: fibres, see shell_element.hpp
+  double offset = 0;       ///< of the middle of the shell from its nodes, along the normal [m]
   double dt_factor = 0.9;  ///< share of the stable step that is voted for
 };
 
@@ -41,8 +42,9 @@ struct ShellBlock {
   ShellConstants constants;
   ShellLayout layout;
   Index n_elements = 0;
-  Array<Index> corners;  ///< of a block of 8 in a row: corner a of lane l at 8 a + l
-  Array<double> state;   ///< layout.n_values() * 8 a block
+  std::vector<Index> cells;  ///< of the part that the elements are; none: in their order
+  Array<Index> corners;      ///< of a block of 8 in a row: corner a of lane l at 8 a + l
+  Array<double> state;       ///< layout.n_values() * 8 a block
   ChunkColours colouring;
   std::vector<ShellSums> sums;  ///< one a chunk, of the last pass
   double omega2 = 0;            ///< of the last pass [1/s^2]
@@ -50,6 +52,10 @@ struct ShellBlock {
   Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p over the points [-]
   Array<double> damage_shown;   ///< largest damage over the points [-]
+  Array<double> forces_shown;   ///< 15 an element, filled by show_section_forces()
+  [[nodiscard]] Index cell(Index e) const {
+    return cells.empty() || e < 0 ? e : cells[static_cast<std::size_t>(e)];
+  }
   [[nodiscard]] int n_corners() const { return corners_per(section.kind); }
   [[nodiscard]] Index n_blocks() const { return blocks_for(n_elements); }
   /// Number k of element e.
@@ -99,6 +105,13 @@ std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& no
 /// point there, or the mean of the two nearest), mean over the points of the plane, in the frame at
 /// positions x [m].
 void show_stress(ShellBlock& block, std::span<const Line> x);
+
+/// Fills forces_shown from the state, in the frame at positions x [m]: the membrane forces N and
+/// the bending moments M about the middle of the shell as global tensors xx, yy, zz, xy, yz, xz
+/// [N/m], [N], and the transverse shear force Q as a global vector [N/m], mean over the points of
+/// the plane.
+///   N = sum w t sigma,  M = sum w t z sigma,  Q = kappa t (sigma_xz e1 + sigma_yz e2)
+void show_section_forces(ShellBlock& block, std::span<const Line> x);
 
 /// Fills plastic_shown from the state. Needs a plastic material.
 void show_plastic_strain(ShellBlock& block);

@@ -222,9 +222,13 @@ GANNET_INLINE Vec8 quad_omega2(const ShellConstants& c, const QuadGeometry& g, c
   const Vec8 hourglass = Ct * max(XX, YY);
   const Vec8 middle = Ct * g.area * lambda;
   const Vec8 ratio = thickness * thickness * inverse_alpha * Vec8(1.0 / 12.0);
-  const Vec8 membrane =
+  Vec8 membrane =
       together(middle, hourglass * gamma2) + Vec8(1.0 / 16.0) * hourglass * h_z * h_z * lambda;
-  const Vec8 bending = ratio * together(middle, Ct * (XX + YY) * gamma2);
+  Vec8 bending = ratio * together(middle, Ct * (XX + YY) * gamma2);
+  if (c.offset != 0) {
+    membrane = bending =
+        together(middle, Ct * (XX + YY) * gamma2) * share_of_offset(c.offset, ratio, inverse_alpha);
+  }
   const Vec8 shear =
       Vec8(c.shear_factor * c.law.shear) * thickness * shear_of_quad(g, inverse_alpha);
   return Vec8(1.0 / c.nodal_mass_factor) * inverse_A0 *
@@ -303,8 +307,7 @@ GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, Shell
   Vec8x3 m[4];
   quad_forces(now, leaning, forces, f, m);
   scatter_all<4>(pass, number, f, m);
-  const Vec8 inverse_alpha =
-      min(Vec8(12.0 / (c.thickness * c.thickness)), Vec8(8.0) * state.inverse_A0);
+  const Vec8 inverse_alpha = min(Vec8(1.0 / c.smallest_alpha), Vec8(8.0) * state.inverse_A0);
   sums.vote(quad_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
 }
 
@@ -350,8 +353,12 @@ GANNET_INLINE Vec8 triangle_omega2(const ShellConstants& c, const FlatGeometry<3
                                    const Leaning<3>& t, Vec8 thickness, Vec8 inverse_A0,
                                    Vec8 inverse_alpha) {
   const Vec8 lambda = largest_gradient<3>(g);
-  const Vec8 membrane = Vec8(c.membrane_modulus) * thickness * g.area * lambda;
+  Vec8 membrane = Vec8(c.membrane_modulus) * thickness * g.area * lambda;
   const Vec8 ratio = thickness * thickness * inverse_alpha * Vec8(1.0 / 12.0);
+  Vec8 bending = membrane * ratio;
+  if (c.offset != 0) {
+    membrane = bending = membrane * share_of_offset(c.offset, ratio, inverse_alpha);
+  }
   const Vec8 Gt = Vec8(c.shear_factor * c.law.shear) * thickness;
   // Mean shear: rows of corner a in w: grad N_a; in turning about x and y: a 2 x 2 matrix
   // sum over its sides of r (grad N_j - grad N_i)/6.
@@ -384,7 +391,7 @@ GANNET_INLINE Vec8 triangle_omega2(const ShellConstants& c, const FlatGeometry<3
   const Vec8 mean_shear = Gt * g.area * larger_eigenvalue(G11, G22, G12);
   const Vec8 turning = Gt * sides * sides * inverse_alpha * Vec8(1.0 / 576.0) / g.area;
   return Vec8(1.0 / c.nodal_mass_factor) * inverse_A0 *
-         bound_of_leaning<3>(t, membrane, membrane * ratio + mean_shear + turning);
+         bound_of_leaning<3>(t, membrane, bending + mean_shear + turning);
 }
 
 template <PointLaw law>
@@ -456,8 +463,7 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
     m[a] = -m[a];
   }
   scatter_all<3>(pass, number, f, m);
-  const Vec8 inverse_alpha =
-      min(Vec8(12.0 / (c.thickness * c.thickness)), Vec8(6.0) * state.inverse_A0);
+  const Vec8 inverse_alpha = min(Vec8(1.0 / c.smallest_alpha), Vec8(6.0) * state.inverse_A0);
   sums.vote(triangle_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
 }
 

@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
 #include "fe/shell.hpp"
+#include "fe/shell_fibres.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "scene/surface_data.hpp"
 
@@ -55,6 +58,14 @@ std::vector<Key> shell_keys() {
        .kind = Kind::flag,
        .text = "the thickness follows the stretching of the shell",
        .fallback = "no"},
+      {.name = "offset",
+       .unit = dim::length,
+       .text = "distance of the middle of the shell from its nodes, along the normals",
+       .fallback = "0"},
+      {.name = "section_forces",
+       .kind = Kind::flag,
+       .text = "show membrane forces, bending moments and shear forces in VTK",
+       .fallback = "no"},
       {.name = "warping",
        .kind = Kind::flag,
        .text = "elements whose corners lie in no plane bend as they should (warping correction)",
@@ -66,13 +77,15 @@ std::vector<Key> shell_keys() {
 }
 
 Schema schema() {
-  return element_schema("shell", "the part is made of 4-node shells", shell_keys());
+  return element_schema(
+      "shell", "the part is made of 4-node shells, and of 3-node ones where it has triangles",
+      shell_keys());
 }
 
 void add_parts(const Keys& root, Draft& draft) {
   for (const Keys& part : parts_with(root, "shell")) {
     if (draft.dimension != 3) {
-      part.complain("shell", "4-node shells need three dimensions");
+      part.complain("shell", "shells need three dimensions");
       continue;
     }
     const SurfaceMesh mesh = surface_mesh(part);
@@ -103,53 +116,150 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
     section.hourglass_coefficient =
         hourglass.number_or("coefficient", section.hourglass_coefficient);
   }
+  section.offset = shell.number_or("offset", 0);
   section.thickness_changes = shell.has("thickness_change") && shell.flag("thickness_change");
   section.warping = !shell.has("warping") || shell.flag("warping");
   section.dt_factor = shell.number_or("dt_factor", section.dt_factor);
   return section;
 }
 
-/// Numbers of the state of a block, from `first` on.
-Field state_field(const std::string& name, const std::string& unit, ShellBlock& block, int first,
-                  int components) {
-  Field field = element_field(name, unit, block.part, block.state, block.layout.n_values(), first,
-                              components, [&block] { return block.n_elements; });
-  field.owner = "shell";
-  return field;
+/// The blocks of a part, one for each kind of element it has, and what output shows of it, by cell.
+struct ShellPart {
+  std::string name;
+  int part = -1;
+  std::vector<ShellBlock*> blocks;
+  Array<double> thickness, stress, plastic, damage;
+  Array<double> membrane_force, moment, shear_force;
+};
+
+/// Found by scene.store.
+struct ShellParts {
+  std::deque<ShellPart> list;
+};
+
+/// Copies numbers first, first + 1, ... of the `stride` that an element has in `from` to its cell.
+void show_by_cell(const ShellBlock& block, const Array<double>& from, std::size_t stride,
+                  std::size_t first, std::size_t components, Array<double>& to) {
+  for (Index e = 0; e < block.n_elements; ++e) {
+    const auto element = static_cast<std::size_t>(e);
+    const auto cell = static_cast<std::size_t>(block.cell(e));
+    for (std::size_t k = 0; k < components; ++k) {
+      to[components * cell + k] = from[stride * element + first + k];
+    }
+  }
 }
 
-/// The whole state for checkpoints; for output, what is derived from it when it is asked for.
-void track(Scene& scene, ShellBlock& block) {
-  scene.fields.push_back(state_field(block.name + ".state", "", block, 0, block.layout.n_values()));
-  Field thickness = state_field(block.name + ".thickness", "m", block, block.layout.thickness(), 1);
-  thickness.vtk = "Thickness";
-  thickness.checkpoint = false;
-  scene.fields.push_back(std::move(thickness));
-  const auto n = static_cast<std::size_t>(block.n_elements);
-  block.stress_shown.assign(6 * n, 0);
-  Field stress = plain_field(block.name + ".stress", "Pa", "Stress", Over::cells,
-                             block.stress_shown, 6, GhostRule::none);
-  stress.prepare = [&scene, &block] { show_stress(block, scene.nodes.x); };
-  stress.owner = "shell";
-  track_shown(scene, block.part, std::move(stress));
-  if (!block.material.plastic()) return;
-  block.plastic_shown.assign(n, 0);
-  Field eps_p = plain_field(block.name + ".plastic_strain", "", "PlasticStrain", Over::cells,
-                            block.plastic_shown, 1, GhostRule::none);
-  eps_p.prepare = [&block] { show_plastic_strain(block); };
-  eps_p.owner = "shell";
-  track_shown(scene, block.part, std::move(eps_p));
-  if (!block.material.failure.given()) return;
-  block.damage_shown.assign(n, 0);
-  Field damage = plain_field(block.name + ".damage", "", "Damage", Over::cells, block.damage_shown,
-                             1, GhostRule::none);
-  damage.prepare = [&block] { show_damage(block); };
-  damage.owner = "shell";
-  track_shown(scene, block.part, std::move(damage));
+/// A field over the cells of a part that prepare() fills.
+void add_shown(Scene& scene, const ShellPart& part, const char* name, const char* unit,
+               const char* vtk, Array<double>& values, int components,
+               std::function<void(ShellBlock&)> prepare) {
+  const auto n_cells =
+      static_cast<std::size_t>(scene.parts[static_cast<std::size_t>(part.part)].n_cells());
+  values.assign(static_cast<std::size_t>(components) * n_cells, 0);
+  Field field =
+      plain_field(part.name + name, unit, vtk, Over::cells, values, components, GhostRule::none);
+  field.owner = "shell";
+  field.prepare = [&part, prepare] {
+    for (ShellBlock* block : part.blocks) prepare(*block);
+  };
+  track_shown(scene, part.part, std::move(field));
+}
+
+void track_section_forces(Scene& scene, ShellPart& part) {
+  const auto add = [&](const char* name, const char* unit, const char* vtk, Array<double>& values,
+                       std::size_t first, std::size_t components) {
+    add_shown(scene, part, name, unit, vtk, values, static_cast<int>(components),
+              [&scene, &values, first, components](ShellBlock& block) {
+                show_section_forces(block, scene.nodes.x);
+                show_by_cell(block, block.forces_shown, 15, first, components, values);
+              });
+  };
+  add(".membrane_force", "N/m", "MembraneForce", part.membrane_force, 0, 6);
+  add(".bending_moment", "N", "BendingMoment", part.moment, 6, 6);
+  add(".shear_force", "N/m", "ShearForce", part.shear_force, 12, 3);
+}
+
+/// The whole states for checkpoints; for output, what is derived from them when it is asked for.
+void track(Scene& scene, ShellPart& part, bool section_forces) {
+  for (ShellBlock* block : part.blocks) {
+    const int n_values = block->layout.n_values();
+    const char* name = block == part.blocks.front() ? ".state" : ".triangles.state";
+    Field whole = element_field(part.name + name, "", part.part, block->state, n_values, 0,
+                                n_values, [block] { return block->n_elements; });
+    whole.owner = "shell";
+    scene.fields.push_back(std::move(whole));
+  }
+  add_shown(scene, part, ".thickness", "m", "Thickness", part.thickness, 1,
+            [&part](ShellBlock& block) {
+              for (Index e = 0; e < block.n_elements; ++e) {
+                part.thickness[static_cast<std::size_t>(block.cell(e))] =
+                    block.value(e, block.layout.thickness());
+              }
+            });
+  scene.fields.back().prepare();  // known from the start, and cheap
+  add_shown(scene, part, ".stress", "Pa", "Stress", part.stress, 6,
+            [&scene, &part](ShellBlock& block) {
+              show_stress(block, scene.nodes.x);
+              show_by_cell(block, block.stress_shown, 6, 0, 6, part.stress);
+            });
+  if (section_forces) track_section_forces(scene, part);
+  if (!part.blocks.front()->material.plastic()) return;
+  add_shown(scene, part, ".plastic_strain", "", "PlasticStrain", part.plastic, 1,
+            [&part](ShellBlock& block) {
+              show_plastic_strain(block);
+              show_by_cell(block, block.plastic_shown, 1, 0, 1, part.plastic);
+            });
+  if (!part.blocks.front()->material.failure.given()) return;
+  add_shown(scene, part, ".damage", "", "Damage", part.damage, 1, [&part](ShellBlock& block) {
+    show_damage(block);
+    show_by_cell(block, block.damage_shown, 1, 0, 1, part.damage);
+  });
   scene.measures.push_back(
-      {"shell." + block.name + ".eroded", "", {"value"}, [&block](double* n_out) {
-         *n_out = n_eroded(block);
+      {"shell." + part.name + ".eroded", "", {"value"}, [&part](double* n_out) {
+         *n_out = 0;
+         for (const ShellBlock* block : part.blocks) *n_out += n_eroded(*block);
        }});
+}
+
+/// The cells of one kind out of those of a part: quadrilaterals, or triangles, which repeat their
+/// last node.
+struct Cells {
+  std::vector<Index> number, connectivity;
+  std::vector<Vec3> fibre;
+};
+
+Cells cells_of(const Part& part, const std::vector<Vec3>& fibre, bool triangles) {
+  Cells cells;
+  for (std::size_t k = 0; k < part.connectivity.size(); k += 4) {
+    if ((part.connectivity[k + 2] == part.connectivity[k + 3]) != triangles) continue;
+    cells.number.push_back(static_cast<Index>(k / 4));
+    for (std::size_t a = 0; a < (triangles ? 3 : 4); ++a) {
+      cells.connectivity.push_back(part.connectivity[k + a]);
+      cells.fibre.push_back(fibre[k + a]);
+    }
+  }
+  return cells;
+}
+
+/// Makes the blocks of a part. Throws std::invalid_argument as make_shell_block().
+void make_blocks(Scene& scene, const ElasticPlastic& material, ShellSection section,
+                 ShellPart& shell) {
+  const Part& part = scene.parts[static_cast<std::size_t>(shell.part)];
+  const std::vector<Vec3> fibre = fibres_of(part.connectivity, scene.nodes.x);
+  for (const bool triangles : {false, true}) {
+    const Cells cells = cells_of(part, fibre, triangles);
+    if (cells.number.empty()) continue;
+    if (triangles) section.kind = ShellKind::triangle;
+    auto& blocks = scene.store.get<ShellBlocks>().list;
+    blocks.push_back(make_shell_block(cells.connectivity, scene.nodes.x, material, section,
+                                      shell_chunk, cells.fibre));
+    ShellBlock& block = blocks.back();
+    block.name = part.name;
+    block.part = shell.part;
+    block.cells = cells.number;
+    add_shell_masses(block, scene.nodes);
+    shell.blocks.push_back(&block);
+  }
 }
 
 void state(const Keys& root, Scene& scene) {
@@ -157,20 +267,20 @@ void state(const Keys& root, Scene& scene) {
     const int number = scene.part_number(keys.name());
     if (number < 0) continue;
     const Part& part = scene.parts[static_cast<std::size_t>(number)];
-    const ElasticPlastic material = read_but_rubber(root, keys.map("shell"));
-    const ShellSection section = read_section(keys.map("shell"), material);
-    auto& blocks = scene.store.get<ShellBlocks>().list;
+    const Keys given = keys.map("shell");
+    const ElasticPlastic material = read_but_rubber(root, given);
+    const ShellSection section = read_section(given, material);
+    ShellPart& shell = scene.store.get<ShellParts>().list.emplace_back();
+    shell.name = part.name;
+    shell.part = number;
     try {
-      blocks.push_back(make_shell_block(part.connectivity, scene.nodes.x, material, section));
+      make_blocks(scene, material, section, shell);
     } catch (const std::invalid_argument& e) {
       keys.complain("shell", e.what());
+      scene.store.get<ShellParts>().list.pop_back();
       continue;
     }
-    ShellBlock& block = blocks.back();
-    block.name = part.name;
-    block.part = number;
-    add_shell_masses(block, scene.nodes);
-    track(scene, block);
+    track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
     surfaces[static_cast<std::size_t>(number)] = {section.thickness, material.E};
@@ -192,23 +302,60 @@ std::vector<Choice> choices(const Keys& root, Scene&) {
   return list;
 }
 
+/// The block whose elements allow the smallest step.
+const ShellBlock& stiffest(const ShellPart& part) {
+  return **std::min_element(
+      part.blocks.begin(), part.blocks.end(),
+      [](const ShellBlock* a, const ShellBlock* b) { return stable_step(*a) < stable_step(*b); });
+}
+
+ElementWork pass_over_part(const ShellPart& part, Nodes& nodes, double dt_old) {
+  ElementWork sum;
+  for (ShellBlock* block : part.blocks) {
+    const ElementWork work = shell_pass(*block, nodes, dt_old);
+    sum.internal += work.internal;
+    sum.plastic += work.plastic;
+    sum.hourglass += work.hourglass;
+    sum.eroded += work.eroded;
+  }
+  return sum;
+}
+
+std::vector<ElementStep> smallest_steps_of_part(const ShellPart& part, const Nodes& nodes,
+                                                std::size_t n) {
+  std::vector<ElementStep> steps;
+  for (const ShellBlock* block : part.blocks) {
+    for (const ElementStep& s : smallest_steps(*block, nodes, n)) {
+      steps.push_back({s.dt, block->cell(s.element)});
+    }
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const ElementStep& a, const ElementStep& b) { return a.dt < b.dt; });
+  steps.resize(std::min(n, steps.size()));
+  return steps;
+}
+
 void operations(const Keys& root, Scene& scene, Models& models) {
-  if (!scene.store.has<ShellBlocks>()) return;
-  for (ShellBlock& block : scene.store.get<ShellBlocks>().list) {
+  if (!scene.store.has<ShellParts>()) return;
+  for (ShellPart& shell : scene.store.get<ShellParts>().list) {
+    const ShellBlock& first = *shell.blocks.front();
     ElementPart part{.kind = "shell",
-                     .part = block.part,
+                     .part = shell.part,
                      .reads = {"x", "v", "omega"},
                      .writes = {"f", "torque"},
-                     .plastic = block.material.plastic(),
-                     .hourglass = block.section.kind == ShellKind::one_point,
-                     .eroded = block.material.failure.given()};
-    part.pass = [&scene, &block](const Step& step) {
-      return shell_pass(block, scene.nodes, step.dt_old);
+                     .plastic = first.material.plastic(),
+                     .hourglass = first.section.kind == ShellKind::one_point,
+                     .eroded = first.material.failure.given()};
+    part.pass = [&scene, &shell](const Step& step) {
+      return pass_over_part(shell, scene.nodes, step.dt_old);
     };
-    part.stable_dt = [&block] { return stable_step(block); };
-    part.limiting = [&block] { return block.limiting; };
-    part.smallest = [&scene, &block](std::size_t n) {
-      return smallest_steps(block, scene.nodes, n);
+    part.stable_dt = [&shell] { return stable_step(stiffest(shell)); };
+    part.limiting = [&shell] {
+      const ShellBlock& block = stiffest(shell);
+      return block.cell(block.limiting);
+    };
+    part.smallest = [&scene, &shell](std::size_t n) {
+      return smallest_steps_of_part(shell, scene.nodes, n);
     };
     add_element_operation(root, scene, models, std::move(part));
   }

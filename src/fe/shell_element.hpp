@@ -366,6 +366,15 @@ GANNET_INLINE void shell_corner_forces(const ShellGeometry& g, const ShellResult
   m[3] = odd - M2;
 }
 
+/// The larger eigenvalue of the form |d + offset k|^2 + ratio alpha |k|^2 in d and k alpha^(1/2):
+/// what stretching and bending at once come to where the middle of the shell is off its nodes, over
+/// stretching alone. ratio: t^2/(12 alpha).
+GANNET_INLINE Vec8 share_of_offset(double offset, Vec8 ratio, Vec8 inverse_alpha) {
+  const Vec8 square = Vec8(offset * offset) * inverse_alpha;
+  const Vec8 half_gap = Vec8(0.5) * (Vec8(1.0) - square - ratio);
+  return Vec8(0.5) * (Vec8(1.0) + square + ratio) + sqrt(half_gap * half_gap + square);
+}
+
 /// The bound where the element bends and shears through fibres (all terms times the mass of a
 /// corner). With w = (1 + p^2)^(1/2), p the largest slope, turning of the nodes counts at most w
 /// times as much; the spin of the element in its plane adds to the odd patterns of turning, which
@@ -418,7 +427,7 @@ GANNET_INLINE Vec8 shell_omega2(const ShellConstants& c, const ShellGeometry& g,
   const Vec8 half_gap = Vec8(0.5) * (g11 - g22);
   const Vec8 lambda = half_sum + sqrt(half_gap * half_gap + g12 * g12);
   const Vec8 inverse_m = Vec8(1.0 / c.nodal_mass_factor) * inverse_A0;
-  const Vec8 inverse_alpha = min(Vec8(12.0 / (c.thickness * c.thickness)), Vec8(8.0) * inverse_A0);
+  const Vec8 inverse_alpha = min(Vec8(1.0 / c.smallest_alpha), Vec8(8.0) * inverse_A0);
   const Vec8 tA = t * g.area;
   const Vec8 thickness_ratio = t * t * inverse_alpha * Vec8(1.0 / 12.0);
   const Vec8 gamma2 = Vec8(4.0) + g.hx * g.hx * g11 + two * g.hx * g.hy * g12 + g.hy * g.hy * g22;
@@ -426,8 +435,11 @@ GANNET_INLINE Vec8 shell_omega2(const ShellConstants& c, const ShellGeometry& g,
   const Vec8 hourglass = gamma2 * (K.membrane + K.warp + K.bending * inverse_alpha) +
                          g.hz * g.hz * lambda * K.membrane +
                          Vec8(1.0 / 16.0) * K.warp * bend2 * lambda * inverse_alpha;
-  const Vec8 membrane = tA * Vec8(c.membrane_modulus) * lambda;
-  const Vec8 bending = membrane * thickness_ratio;
+  Vec8 membrane = tA * Vec8(c.membrane_modulus) * lambda;
+  Vec8 bending = membrane * thickness_ratio;
+  if (c.offset != 0) {
+    membrane = bending = membrane * share_of_offset(c.offset, thickness_ratio, inverse_alpha);
+  }
   const Vec8 GtA = Vec8(c.shear_factor * c.law.shear) * tA;
   const Vec8 shear = GtA * (lambda + Vec8(0.25) * inverse_alpha);
   const Vec8 all = fibres == nullptr ? max(max(membrane, bending), shear)

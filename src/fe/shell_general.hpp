@@ -73,17 +73,26 @@ __attribute__((noinline)) inline void general_shell_stress(const ShellConstants&
 }
 
 /// Stress from n-1 to n at the points through the thickness over one point of the plane, of
-/// whatever law: see shell_stress() and general_shell_stress().
+/// whatever law: see shell_stress() and general_shell_stress(). The middle of the shell lies
+/// c.offset over the nodes, whose strain and moments are those of d and r.
 template <PointLaw law>
 GANNET_INLINE void column_stress(const ShellConstants& c, const ShellLayout& layout, double dt,
                                  double* state, const ShellIncrements& d, Vec8 t,
                                  ShellResultants& r, ColumnStress& out) {
+  const Vec8 offset(c.offset);
+  ShellIncrements middle = d;
+  middle.xx += offset * d.kxx;
+  middle.yy += offset * d.kyy;
+  middle.xy += offset * d.kxy;
   if constexpr (law == PointLaw::general) {
-    general_shell_stress(c, layout, dt, state, d, t, r, out);
+    general_shell_stress(c, layout, dt, state, middle, t, r, out);
   } else {
     out.growth = shell_stress<law == PointLaw::linear_hardening>(
-        c, layout, state, d, t, r, out.work.internal, out.work.plastic);
+        c, layout, state, middle, t, r, out.work.internal, out.work.plastic);
   }
+  r.mxx += offset * r.nxx;
+  r.myy += offset * r.nyy;
+  r.mxy += offset * r.nxy;
 }
 
 /// Where all points over one of the plane have failed, the transverse shear there falls to zero

@@ -39,6 +39,8 @@ struct ShellConstants {
   double membrane_modulus = 0;    ///< largest eigenvalue of C: E / (1 - |nu|) [Pa]
   double nodal_mass_factor = 0;   ///< rho t0 / corners [kg/m^2]: nodal mass = factor * A0
   double thickness = 0;           ///< t0 [m]
+  double offset = 0;              ///< height of the middle of the shell over its nodes [m]
+  double smallest_alpha = 0;      ///< t0^2/12 + offset^2 [m^2]
 };
 
 /// Where the numbers of an element stand in its block: number k of lane l is at

@@ -1,6 +1,7 @@
 // The same bits for any number of threads, for a run that is cut and resumed, and for any output.
 // CTest runs this once per instruction set (GANNET_ISA).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <functional>

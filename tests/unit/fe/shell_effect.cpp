@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "base/math.hpp"
 #include "fe/effects.hpp"
@@ -145,6 +147,57 @@ TEST_CASE("shell effect: elastic shells take three points unless told", "[fe]") 
   CHECK(b->scene.store.get<ShellBlocks>().list.front().section.points == 3);
   CHECK(b->scene.field("panel.plastic_strain") == nullptr);
   CHECK(b->scene.store.get<ShellBlocks>().list.front().layout.per_point == 3);
+}
+
+TEST_CASE("shell effect: a mesh of quadrilaterals and triangles is one part", "[fe]") {
+  const auto file = std::filesystem::temp_directory_path() / "gannet_mixed.msh";
+  std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n"
+                         "3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n$EndNodes\n$Elements\n3\n"
+                         "1 2 2 1 1 2 3 6\n2 3 2 1 1 1 2 5 4\n3 2 2 1 1 2 6 5\n$EndElements\n";
+  const auto b = build(head + aluminium +
+                       "\nparts:\n  panel:\n    shell: {material: skin, thickness: 3 mm, "
+                       "section_forces: yes}\n    mesh: {file: " +
+                       file.string() + "}\n    map: [\"0.1*x\", \"0.1*y\", \"0.01*x^2\"]\n");
+  std::filesystem::remove(file);
+  Scene& scene = b->scene;
+  const auto& blocks = scene.store.get<ShellBlocks>().list;
+  REQUIRE(blocks.size() == 2);
+  CHECK(blocks[0].n_elements == 1);
+  CHECK(blocks[1].n_elements == 2);
+  CHECK(scene.field("panel.state")->count() == 1);
+  CHECK(scene.field("panel.triangles.state")->count() == 2);
+  CHECK(scene.field("panel.stress")->count() == 3);
+  CHECK(scene.field("panel.membrane_force")->components == 6);
+  // Each triangle gives a third of its mass to a corner: 2.7 kg/dm^3, 3 mm, half a square of 0.1 m
+  // that rises by 0.01 (1 and 4 - 1 times).
+  const Part& part = scene.parts.front();
+  double mass = 0;
+  for (const Line& x : scene.nodes.x) mass += x.w;
+  const double flat = std::sqrt(0.01 + 0.0001);
+  const double steep = std::sqrt(0.01 + 0.0009);
+  CHECK(mass == Approx(2700 * 0.003 * 0.1 * (flat + steep)).epsilon(1e-12));
+  // Stretch along y: every cell shows the stress of uniaxial strain.
+  for (Line& v : scene.nodes.v) v = {0, 0, 0, v.w};
+  for (std::size_t i = 0; i < scene.nodes.x.size(); ++i) {
+    scene.nodes.v[i].y = 10 * scene.nodes.x[i].y;
+  }
+  Model& model = b->models.list.front();
+  Model* const level[] = {&model};
+  step(level);
+  step(level);
+  const Field* stress = scene.field("panel.stress");
+  stress->prepare();
+  const double first = *reinterpret_cast<const double*>(stress->at(0, 1));
+  CHECK(first > 1e5);
+  for (Index c = 0; c < part.n_cells(); ++c) {
+    CHECK(*reinterpret_cast<const double*>(stress->at(c, 1)) == Approx(first).epsilon(1e-9));
+  }
+  CHECK(model.vote.who.find("panel: element") == 0);
+}
+
+TEST_CASE("shell effect: points of a part may be moved by formulas", "[fe][errors]") {
+  CHECK(mistakes_of(head + aluminium + panel + "    map: [x, y, \"1/(x - x)\"]\n")
+            .find("parts.panel.map: is not finite at") != std::string::npos);
 }
 
 TEST_CASE("shell effect: the material cards give their numbers", "[fe][material]") {

@@ -218,6 +218,41 @@ TEST_CASE("shell: hourglass stiffness of a square by hand", "[fe]") {
   }
 }
 
+TEST_CASE("shell: a middle off the nodes turns their membrane force into a moment", "[fe]") {
+  // Nodes stretched by eps along x: N = E/(1 - nu^2) t eps, and N z0 about the nodes.
+  for (const Isa set : sets()) {
+    const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
+    const double z0 = 0.003;
+    Sheet s = grid(2, 2, [](int i, int j) { return Vec3(0.1 * i, 0.1 * j, 0); });
+    ShellBlock block =
+        block_of(s, patch_material, {.kind = kind, .thickness = 0.002, .offset = z0});
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      set_xyz(s.nodes.v[i], {1e-3 * s.nodes.x[i].x, 0, 0});
+    }
+    shell_pass(block, s.nodes, dt, set);
+    show_section_forces(block, s.nodes.x);
+    const double N = 1e6 / (1 - 0.0625) * 0.002 * 1e-3;
+    CHECK(s.nodes.f[5].x / dt == Approx(-N * 0.1).epsilon(1e-10));  // the middle of the end
+    CHECK(s.nodes.torque[5].y / dt == Approx(-N * 0.1 * z0).epsilon(1e-10));
+    CHECK(block.forces_shown[0] / dt == Approx(N).epsilon(1e-10));
+    CHECK(block.forces_shown[1] / dt == Approx(0.25 * N).epsilon(1e-10));
+    CHECK(std::abs(block.forces_shown[6]) / dt < 1e-10 * N * z0);  // no moment about the middle
+    // The same seen from the middle: nodes turn about an axis z0 above them, strain k z0 there.
+    ShellBlock bent = block_of(s, patch_material, {.kind = kind, .thickness = 0.002, .offset = z0});
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const double x = s.nodes.x[i].x;
+      set_xyz(s.nodes.v[i], {-z0 * x, 0, -0.5 * x * x});
+      set_xyz(s.nodes.omega[i], {0, x, 0});
+    }
+    shell_pass(bent, s.nodes, dt, set);
+    show_section_forces(bent, s.nodes.x);
+    const double D = 1e6 / (1 - 0.0625) * 8e-9 / 12;
+    CHECK(std::abs(bent.forces_shown[0]) / dt < 1e-10 * D / z0);
+    CHECK(bent.forces_shown[6] / dt == Approx(D).epsilon(1e-9));
+    CHECK(bent.forces_shown[7] / dt == Approx(0.25 * D).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("shell: mass and rotary inertia by hand", "[fe]") {
   Sheet s = grid(2, 1, [](int i, int j) { return Vec3(0.1 * i, 0.2 * j, 0); });
   ShellBlock block = block_of(s, {.rho = 2700, .E = 70e9, .nu = 0.3}, {.thickness = 0.01});
