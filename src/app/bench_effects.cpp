@@ -78,6 +78,7 @@ constexpr EffectCase cases[] = {
      "boundaries: {beach: {sponge: {box: {from: [-9, -9, -9], to: [9, 9, 9]}, ramp: 1, rate: 1}}}"},
     {"rest", "water", "effects: {rest: {tolerance: 0, quiet: 1 s}}"},
     {"relaxation", "water", "effects: {relaxation: {rate: 1, until: 9 s}}"},
+    {"element relaxation", "sheet", "effects: {element_relaxation: {until: 9 s}}"},
     {"acceleration", "water",
      "loads: {pull: {acceleration: [\"-0.1*x\", \"-0.1*y\", \"-0.1*z\"]}}"},
     {"gravity", "sheet", "loads: {gravity: [0, 0, -9.81 m/s^2]}"},

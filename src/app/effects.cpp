@@ -32,10 +32,11 @@ Schema case_schema() {
 
 std::vector<Effect> make_table() {
   return {
-      leapfrog_effect(),       // first: clears forces, kicks and drifts
-      gravity_effect(),        // says what gravity is before others ask the scene
-      sponge_effect(),         // after the free kick, before motions that are given
-      relaxation_effect(),     // likewise
+      leapfrog_effect(),    // first: clears forces, kicks and drifts
+      gravity_effect(),     // says what gravity is before others ask the scene
+      sponge_effect(),      // after the free kick, before motions that are given
+      relaxation_effect(),  // likewise
+      element_relaxation_effect(),
       planes_effect(),         //
       plane_motion_effect(),   // before lists are made: planes are where they are by then
       wall_pressure_effect(),  // what the force pass of the particles reads

@@ -34,6 +34,10 @@ Effect sponge_effect();
 /// does.
 Effect relaxation_effect();
 
+/// effects.element_relaxation: dynamic relaxation of the parts of elements. Stands where `sponge`
+/// does.
+Effect element_relaxation_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 
