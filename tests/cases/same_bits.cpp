@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <set>
@@ -94,6 +96,42 @@ Sample plane_sample() {
 
 Sample shells_sample(const std::string& formulation) {
   return {[formulation] { return std::make_unique<WatchedRun>(shells(formulation)); }, 150, false};
+}
+
+/// A file with a mesh of 40 x 40 cells over 1 m x 1 m, every third of them two triangles.
+std::string mixed_mesh() {
+  const auto file = std::filesystem::temp_directory_path() / "gannet_same_bits_mixed.msh";
+  constexpr int n = 40;
+  std::string cells;
+  int n_cells = 0;
+  const auto add = [&](const std::vector<int>& nodes) {
+    cells += fmt::format("{} {} 2 1 1 {}\n", ++n_cells, nodes.size() == 3 ? 2 : 3,
+                         fmt::join(nodes, " "));
+  };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i + 1;
+      const std::vector<int> q{a, a + 1, a + n + 2, a + n + 1};
+      if ((i + j) % 3 != 0) {
+        add(q);
+        continue;
+      }
+      add({q[0], q[1], q[2]});
+      add({q[0], q[2], q[3]});
+    }
+  }
+  std::ofstream out(file);
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (n + 1) * (n + 1) << "\n";
+  for (int k = 0; k < (n + 1) * (n + 1); ++k) {
+    out << k + 1 << ' ' << k % (n + 1) / double(n) << ' ' << k / (n + 1) / double(n) << " 0\n";
+  }
+  out << "$EndNodes\n$Elements\n" << n_cells << "\n" << cells << "$EndElements\n";
+  return file.string();
+}
+
+Sample mixed_sample() {
+  const std::string file = mixed_mesh();
+  return {[file] { return std::make_unique<WatchedRun>(mixed_shells(file)); }, 150, false};
 }
 
 Sample lines_sample() {
@@ -341,6 +379,13 @@ TEST_CASE("same bits: shells that yield, 1, 2, 3 and 5 threads, and restarts", "
   const std::string formulation = GENERATE("belytschko_lin_tsay", "fully_integrated");
   check_threads(shells_sample(formulation));
   check_restart(shells_sample(formulation));
+}
+
+TEST_CASE(
+    "same bits: quadrilaterals and triangles that settle, 1, 2, 3 and 5 threads, and restarts",
+    "[bits]") {
+  check_threads(mixed_sample());
+  check_restart(mixed_sample());
 }
 
 TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",

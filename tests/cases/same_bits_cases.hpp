@@ -198,6 +198,23 @@ output: {until: 10 s, checkpoint: never}
 )case";
 }
 
+/// A vault of quadrilaterals and triangles that yields and settles under dynamic relaxation.
+inline std::string mixed_shells(const std::string& mesh_file) {
+  return R"case(gannet: 1
+materials: {skin: {card: al_6061_t6}}
+parts:
+  vault:
+    shell: {material: skin, thickness: 3 mm, offset: 1 mm}
+    mesh: {file: )case" +
+         mesh_file + R"case(}
+    map: [x, y, "0.3*x*(1 - x) + 0.02*sin(7*y)"]
+    initial_velocity: ["3*sin(9*y)", "5*cos(7*x)", "60*sin(4*x)*cos(3*y)"]
+boundaries: {edge: {nodes: {edge_of: vault}, fix: [x, y, z]}}
+effects: {element_relaxation: {until: 10 s, motion: 1e-9}}
+output: {until: 10 s, checkpoint: never}
+)case";
+}
+
 /// A damped rope that swings along itself and breaks in places, and a beam that is bent and
 /// twisted: three chunks of each.
 inline const std::string rope_and_beam = R"case(gannet: 1
