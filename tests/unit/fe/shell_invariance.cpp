@@ -1,5 +1,6 @@
 // What a change of place, direction or speed must not change, and what the element must balance.
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -393,5 +394,55 @@ TEST_CASE("shell: the thickness follows stretching only where asked", "[fe]") {
     const double e = 1e-5 / (0.1 + 0.5e-5);
     const double expected = changes ? 0.002 * (1 - 0.3 / 0.7 * e) : 0.002;
     CHECK(block.value(0, block.layout.thickness()) == Approx(expected).epsilon(1e-8));
+  }
+}
+
+namespace {
+
+/// Largest |h . displacement| (component d < 3) or |h . rotation| of a free square within each half
+/// of 4000 steps, excited by that pattern.
+std::array<double, 2> swing_of_pattern(const ShellSection& section, int d) {
+  Sheet s = grid(1, 1, [](int i, int j) { return Vec3(0.1 * i, 0.1 * j, 0); });
+  ShellBlock block = block_of(s, elastic_steel, section);
+  add_shell_masses(block, s.nodes);
+  const std::array<double, 4> h{1, -1, -1, 1};  // nodes run along the rows of the grid
+  for (std::size_t i = 0; i < 4; ++i) {
+    Line& to = d < 3 ? s.nodes.v[i] : s.nodes.omega[i];
+    set_xyz(to, (d < 3 ? 1e-4 : 1e-3) * h[i] * Vec3::Unit(d % 3));
+  }
+  std::array<double, 2> most{};
+  double q = 0;
+  double dt = 0;
+  for (std::size_t k = 0; k < 4000; ++k) {
+    dt = free_step(block, s.nodes, dt);
+    for (std::size_t i = 0; i < 4; ++i) {
+      q += dt * h[i] * xyz(d < 3 ? s.nodes.v[i] : s.nodes.omega[i])[d % 3];
+    }
+    most[k / 2000] = std::max(most[k / 2000], std::abs(q));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("shell: each hourglass pattern swings with control and runs away without", "[fe]") {
+  for (const int d : {0, 1, 2, 3, 4}) {
+    const auto held = swing_of_pattern({.thickness = 0.005}, d);
+    const auto loose = swing_of_pattern({.thickness = 0.005, .hourglass_coefficient = 0}, d);
+    CAPTURE(d, held[0], held[1], loose[0], loose[1]);
+    CHECK(held[1] < 1.05 * held[0]);
+    CHECK(loose[1] > 1.9 * loose[0]);
+    CHECK(held[1] < 0.3 * loose[1]);
+    // Viscous control slows them: less way in the second half than in the first.
+    const auto slowed =
+        swing_of_pattern({.thickness = 0.005, .hourglass = HourglassForm::viscous}, d);
+    CHECK(slowed[1] - slowed[0] < 0.95 * slowed[0]);
+    // The others have no such pattern to lose.
+    for (const ShellKind kind : {ShellKind::quad, ShellKind::triangle}) {
+      const auto full =
+          swing_of_pattern({.kind = kind, .thickness = 0.005, .hourglass_coefficient = 0}, d);
+      CHECK(full[1] < 1.05 * full[0]);
+      CHECK(full[1] < 0.3 * loose[1]);
+    }
   }
 }
