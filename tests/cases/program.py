@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -91,6 +92,28 @@ class Program(unittest.TestCase):
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         self.assertEqual(self.summary()["status"], "completed")
         self.assertGreater(self.summary()["steps"], stopped["steps"])
+
+    def test_curves_of_a_card_are_written_and_a_wrong_one_is_refused(self):
+        csv, svg = self.out / "curves.csv", self.out / "curves.svg"
+        self.out.mkdir()
+        run = gannet("material", "copper_ofhc", "--to", "0.1", "--steps", "20", "--rate",
+                     "1,1e4", "--csv", str(csv), "--svg", str(svg))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"1 1/s: largest stress 2\d\d\.\d+ MPa at strain 0\.1")
+        lines = csv.read_text().splitlines()
+        self.assertEqual(len(lines), 2 * (2 + 21))
+        self.assertEqual(lines[1], "strain,stress_Pa,nominal_Pa,plastic_strain,heating_K,damage")
+        slow, fast = (float(lines[k].split(",")[1]) for k in (22, 45))
+        # 1 + C ln(1e4) with C = 0.025, but for the heat that both make
+        self.assertAlmostEqual(fast / slow, 1 + 0.025 * math.log(1e4), delta=2e-3)
+        self.assertIn("Copper OFHC", svg.read_text())
+        for words, said in ((["coper_ofhc"], "did you mean 'copper_ofhc'?"),
+                            (["copper_ofhc", "--rate", "1 m"], "--rate 1 m: "),
+                            (["water"], "a solid needs Young's modulus"),
+                            (["gate_rubber_neo_hookean", "--element", "shell"], "--element solid")):
+            refused = gannet("material", *words)
+            self.assertEqual(refused.returncode, 2, words)
+            self.assertIn(said, refused.stderr)
 
     def test_version_check_and_explain(self):
         self.assertRegex(gannet("--version").stdout, r"^gannet \d+\.\d+\.\d+")
