@@ -78,16 +78,21 @@ bool has_formulation(const Keys& solid, const char* name) {
   return solid.has("formulation") && solid.word("formulation") == name;
 }
 
-/// The cells of a part: of its shape, or in a plane case the quadrilaterals of a file.
+/// The cells of a part; bricks are cut into tetrahedra where these are asked for.
 VolumeMesh mesh_of(const Keys& part, int dimension) {
-  if (has_formulation(part.map("solid"), "tetrahedra")) {
-    if (dimension == 3) return tetrahedra_of(volume_mesh(part, dimension));
-    part.map("solid").complain("formulation", "tetrahedra need three dimensions");
+  const Keys solid = part.map("solid");
+  const bool tetrahedra = has_formulation(solid, "tetrahedra");
+  if (tetrahedra && dimension == 2) {
+    solid.complain("formulation", "tetrahedra need three dimensions");
     return {};
   }
-  if (dimension == 3 || !part.has("mesh")) return volume_mesh(part, dimension);
-  SurfaceMesh file = surface_mesh(part);
-  return {std::move(file.points), std::move(file.quads), 4};
+  VolumeMesh mesh = volume_mesh(part, dimension);
+  if (mesh.nodes_per_cell == 8) return tetrahedra ? tetrahedra_of(mesh) : mesh;
+  if (dimension == 3 && has_formulation(solid, "eight_points")) {
+    solid.complain("formulation", "is one of bricks, and the mesh is of tetrahedra");
+    return {};
+  }
+  return mesh;
 }
 
 void add_parts(const Keys& root, Draft& draft) {
@@ -103,8 +108,8 @@ void add_parts(const Keys& root, Draft& draft) {
 }
 
 /// Whether its elements have modes that they do not see.
-bool has_hourglass(const Keys& solid) {
-  return !has_formulation(solid, "eight_points") && !has_formulation(solid, "tetrahedra");
+bool has_hourglass(const Keys& solid, Cell cell) {
+  return !has_formulation(solid, "eight_points") && cell != Cell::tetrahedron;
 }
 
 /// Unless said: viscous where the solid may yield, since an elastic force does not flow with it.
@@ -125,9 +130,9 @@ SolidSection read_section(const Keys& solid, const ElasticPlastic& material, Cel
   section.shape = shape_of(cell);
   section.viscous_hourglass = resists_viscously(solid, material);
   if (has_formulation(solid, "eight_points")) section.points = 8;
-  if (!has_hourglass(solid) && solid.given("hourglass")) {
-    solid.complain("hourglass", "has no meaning with " + solid.word("formulation") +
-                                    ": they have no modes that they do not see");
+  if (!has_hourglass(solid, cell) && solid.given("hourglass")) {
+    solid.complain("hourglass",
+                   "has no meaning: these elements have no modes that they do not see");
   }
   if (cell == Cell::tetrahedron && material.hyperelastic()) {
     solid.complain("material", "is rubber, which tetrahedra do not know yet");
@@ -240,11 +245,13 @@ void operations(const Keys& root, Scene& scene, Models& models) {
 }
 
 /// Hourglass control, where the case leaves it open.
-std::vector<Choice> choices(const Keys& root, Scene&) {
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
   std::vector<Choice> list;
   for (const Keys& part : parts_with(root, "solid")) {
     const Keys solid = part.map("solid");
-    if (!has_hourglass(solid)) continue;
+    const int number = scene.part_number(part.name());
+    if (number < 0) continue;
+    if (!has_hourglass(solid, scene.parts[static_cast<std::size_t>(number)].cell)) continue;
     if (solid.has("hourglass") && solid.map("hourglass").has("type")) continue;
     const std::string name = solid.word("material");
     const bool plastic = read_elastic_plastic(root.map("materials").map(name)).plastic();

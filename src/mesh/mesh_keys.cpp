@@ -20,25 +20,26 @@ constexpr std::array file_units = {FileUnit{"m", 1}, FileUnit{"cm", 0.01}, FileU
 Key mesh_key() {
   std::vector<std::string> units;
   for (const FileUnit& unit : file_units) units.emplace_back(unit.name);
-  return {.name = "mesh",
-          .kind = Kind::map,
-          .text = "a surface from a file",
-          .keys = {{.name = "file",
-                    .kind = Kind::path,
-                    .text = "a gmsh file (.msh 4.1 or 2.2, ASCII)",
-                    .required = true},
-                   {.name = "unit",
-                    .kind = Kind::choice,
-                    .text = "unit of the lengths in the file",
-                    .fallback = "m",
-                    .choices = units},
-                   {.name = "group",
-                    .kind = Kind::text,
-                    .text = "name of the physical surface to take; all cells unless said"},
-                   {.name = "move",
-                    .kind = Kind::vector,
-                    .unit = dim::length,
-                    .text = "vector by which the mesh is moved"}}};
+  return {
+      .name = "mesh",
+      .kind = Kind::map,
+      .text = "a surface, or a volume of solids, from a file",
+      .keys = {{.name = "file",
+                .kind = Kind::path,
+                .text = "a gmsh file (.msh 4.1 or 2.2, ASCII)",
+                .required = true},
+               {.name = "unit",
+                .kind = Kind::choice,
+                .text = "unit of the lengths in the file",
+                .fallback = "m",
+                .choices = units},
+               {.name = "group",
+                .kind = Kind::text,
+                .text = "name of the physical surface or volume to take; all cells unless said"},
+               {.name = "move",
+                .kind = Kind::vector,
+                .unit = dim::length,
+                .text = "vector by which the mesh is moved"}}};
 }
 
 Key fill_key() {
@@ -78,17 +79,34 @@ Key fill_key() {
                     .limits = at_least(0)}}};
 }
 
-SurfaceMesh file_surface(const Keys& keys) {
-  if (!keys.has("file")) return {};  // required: the reader has complained
-  const std::string group = keys.has("group") ? keys.word("group") : "";
-  SurfaceMesh mesh = read_msh(keys.word("file"), group, keys.mistakes());
+std::string group_of(const Keys& keys) { return keys.has("group") ? keys.word("group") : ""; }
+
+/// Brings points from the unit of the file to their place [m].
+void place_points(const Keys& keys, std::vector<Vec3>& points) {
   const std::string unit = keys.has("unit") ? keys.word("unit") : "m";
   double metres = 1;
   for (const FileUnit& known : file_units) {
     if (known.name == unit) metres = known.metres;
   }
   const Vec3 move = keys.has("move") ? keys.vector("move") : Vec3::Zero();
-  for (Vec3& x : mesh.points) x = metres * x + move;
+  for (Vec3& x : points) x = metres * x + move;
+}
+
+SurfaceMesh file_surface(const Keys& keys) {
+  if (!keys.has("file")) return {};  // required: the reader has complained
+  SurfaceMesh mesh = read_msh(keys.word("file"), group_of(keys), keys.mistakes());
+  place_points(keys, mesh.points);
+  return mesh;
+}
+
+VolumeMesh file_volume(const Keys& keys, int dimension) {
+  if (dimension == 2) {
+    SurfaceMesh surface = file_surface(keys);
+    return {std::move(surface.points), std::move(surface.quads), 4};
+  }
+  if (!keys.has("file")) return {};
+  VolumeMesh mesh = read_msh_volume(keys.word("file"), group_of(keys), keys.mistakes());
+  place_points(keys, mesh.points);
   return mesh;
 }
 
@@ -98,6 +116,23 @@ Schema mesh_schema() {
   const Key shape{
       .name = "shape", .kind = Kind::map, .text = "a surface of elements", .keys = shape_keys()};
   return {{"parts.*", shape}, {"parts.*", mesh_key()}, {"parts.*", fill_key()}};
+}
+
+VolumeMesh volume_mesh(const Keys& part, int dimension) {
+  const bool shape = part.has("shape");
+  if (shape && part.has("mesh")) {
+    part.complain("mesh", "stands beside 'shape'; a part has one of them");
+    return {};
+  }
+  if (part.has("mesh")) return file_volume(part.map("mesh"), dimension);
+  if (shape && is_volume_shape(part.map("shape"))) {
+    return shape_volume(part.map("shape"), dimension);
+  }
+  part.mistakes().add(part.where(),
+                      part.path() +
+                          ": its volume is missing; a 'shape' (block, mapped or rod) or "
+                          "a 'mesh' is wanted");
+  return {};
 }
 
 SurfaceMesh surface_mesh(const Keys& part) {

@@ -7,6 +7,7 @@
 #include "base/keys.hpp"
 #include "base/math.hpp"
 #include "base/schema.hpp"
+#include "mesh/volume_shapes.hpp"
 
 namespace gannet {
 
@@ -19,6 +20,10 @@ struct SurfaceMesh {
 
 /// The keys `shape`, `mesh` and `fill` of "parts.*".
 Schema mesh_schema();
+
+/// The volume that the part asks for under `shape` (block, mapped, rod) or `mesh` (a file): in a
+/// plane case (dimension 2) quadrilaterals. Mistakes as of surface_mesh(). Throws nothing else.
+VolumeMesh volume_mesh(const Keys& part, int dimension);
 
 /// The surface that the part asks for under `shape` (plate, plane, wedge, box) or `mesh` (a file).
 /// Notes every mistake that it finds (also those of a mesh file, at their line in it) in the

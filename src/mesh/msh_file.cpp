@@ -104,18 +104,30 @@ class Lines {
   int number_ = 0;
 };
 
-constexpr int triangle_type = 2;
-constexpr int quad_type = 3;
-constexpr std::array surface_types_of_higher_order = {9, 10, 16, 20, 21, 22, 23, 36, 37, 38};
+constexpr std::size_t most_nodes = 8;
+
+// A type of element that is read: its number in the file, its dimension, its nodes.
+struct CellType {
+  Tag number;
+  int dimension;
+  std::size_t n;
+};
+constexpr std::array cell_types = {CellType{2, 2, 3}, CellType{3, 2, 4}, CellType{4, 3, 4},
+                                   CellType{5, 3, 8}};
+constexpr std::array types_of_higher_order = {9,  10, 11, 12, 13, 14, 16, 17, 18, 19, 20,
+                                              21, 22, 23, 29, 30, 31, 36, 37, 38, 92, 93};
+constexpr std::array types_of_other_volumes = {6, 7};  // prisms, pyramids
 
 // What has been read so far.
 struct MshContent {
+  int dimension = 2;                       // of the cells that are wanted
   int version = 0;                         // 4 or 2; 0 before $MeshFormat
-  std::map<std::string, Tag> group_tags;   // physical surfaces by name
-  std::map<Tag, std::set<Tag>> groups_of;  // physical surfaces of each surface (4.1)
+  std::map<std::string, Tag> group_tags;   // physical surfaces, or volumes, by name
+  std::map<Tag, std::set<Tag>> groups_of;  // physical surfaces of each surface (4.1), or volumes
   std::unordered_map<Tag, Vec3> nodes;     // [unit of the file]
   std::string wanted_group;                // "" for all
-  std::vector<std::array<Tag, 4>> cells;   // node tags
+  std::vector<std::array<Tag, most_nodes>> cells;  // node tags
+  std::size_t n_nodes = 0;                         // of each volume; surfaces have 4
 };
 
 void read_format(Lines& in, MshContent& content) {
@@ -137,21 +149,28 @@ void read_names(Lines& in, MshContent& content) {
     const std::size_t open = in.line().find('"');
     const std::size_t close = in.line().rfind('"');
     if (open == std::string::npos || close == open) in.fail("a name in quotes is wanted");
-    if (dimension == 2) content.group_tags[in.line().substr(open + 1, close - open - 1)] = tag;
+    if (dimension == content.dimension)
+      content.group_tags[in.line().substr(open + 1, close - open - 1)] = tag;
   }
 }
 
+// The groups of one surface or volume, whose line this is.
+void read_groups(const Lines& in, MshContent& content) {
+  const Tag n_groups = in.count(7);  // after the tag and the two corners around it
+  // gmsh marks a surface that was taken in the other sense by a negative tag of its group.
+  for (Tag k = 0; k < n_groups; ++k) {
+    content.groups_of[in.integer(0)].insert(std::abs(in.integer(static_cast<std::size_t>(8 + k))));
+  }
+}
+
+// Points, curves, surfaces and volumes, of which one kind is wanted.
 void read_entities(Lines& in, MshContent& content) {
   in.next_of("Entities");
-  const std::array<Tag, 3> n = {in.count(0), in.count(1), in.count(2)};
-  for (Tag left = n[0] + n[1]; left > 0; --left) in.next_of("Entities");  // points, curves
-  for (Tag left = n[2]; left > 0; --left) {
-    in.next_of("Entities");
-    const Tag n_groups = in.count(7);  // after the tag and the two corners around the surface
-    // gmsh marks a surface that was taken in the other sense by a negative tag of its group.
-    for (Tag k = 0; k < n_groups; ++k) {
-      content.groups_of[in.integer(0)].insert(
-          std::abs(in.integer(static_cast<std::size_t>(8 + k))));
+  const std::array<Tag, 4> n = {in.count(0), in.count(1), in.count(2), in.count(3)};
+  for (std::size_t dimension = 0; dimension < 4; ++dimension) {
+    for (Tag left = n[dimension]; left > 0; --left) {
+      in.next_of("Entities");
+      if (static_cast<int>(dimension) == content.dimension) read_groups(in, content);
     }
   }
 }
@@ -185,27 +204,49 @@ void read_nodes(Lines& in, MshContent& content) {
   }
 }
 
-// Takes the cell on this line, whose node tags begin at word `first`, if it is one of a surface.
-void add_cell(Lines& in, MshContent& content, Tag type, std::size_t first) {
-  for (const int known : surface_types_of_higher_order) {
+// The type, if its cells are wanted; fails at what cannot be read.
+const CellType* wanted_type(const Lines& in, const MshContent& content, Tag type) {
+  for (const int known : types_of_higher_order) {
     if (type == known) {
       in.fail(fmt::format("element type {} is of higher order; mesh with order 1", type));
     }
   }
-  if (type != triangle_type && type != quad_type) return;
-  const std::size_t n = type == triangle_type ? 3 : 4;
-  if (in.size() < first + n) in.fail(fmt::format("the element needs {} nodes", n));
-  std::array<Tag, 4> cell{};
-  for (std::size_t k = 0; k < n; ++k) cell[k] = in.integer(first + k);
-  if (n == 3) cell[3] = cell[2];
+  for (const int known : types_of_other_volumes) {
+    if (type == known && content.dimension == 3) {
+      in.fail("prisms and pyramids are not read; mesh with tetrahedra or hexahedra");
+    }
+  }
+  for (const CellType& known : cell_types) {
+    if (known.number == type && known.dimension == content.dimension) return &known;
+  }
+  return nullptr;
+}
+
+void check_nodes(const Lines& in, const MshContent& content, const Tag* cell, std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) {
     if (!content.nodes.contains(cell[k])) {
       in.fail(fmt::format("element {} uses node {}, which is not there", in.integer(0), cell[k]));
     }
-    if (cell[k] == cell[(k + 1) % n] || (n == 4 && cell[k] == cell[(k + 2) % n])) {
+    if (std::find(cell + k + 1, cell + n, cell[k]) != cell + n) {
       in.fail(fmt::format("element {} uses node {} twice", in.integer(0), cell[k]));
     }
   }
+}
+
+// Takes the cell on this line, whose node tags begin at word `first`, if it is one that is wanted.
+void add_cell(Lines& in, MshContent& content, Tag type, std::size_t first) {
+  const CellType* known = wanted_type(in, content, type);
+  if (known == nullptr) return;
+  const std::size_t n = known->n;
+  if (in.size() < first + n) in.fail(fmt::format("the element needs {} nodes", n));
+  std::array<Tag, most_nodes> cell{};
+  for (std::size_t k = 0; k < n; ++k) cell[k] = in.integer(first + k);
+  check_nodes(in, content, cell.data(), n);
+  if (n == 3) cell[3] = cell[2];
+  if (content.dimension == 3 && content.n_nodes != 0 && content.n_nodes != n) {
+    in.fail("tetrahedra and hexahedra stand in one part; take a part for each by its 'group'");
+  }
+  content.n_nodes = content.dimension == 3 ? n : 4;
   content.cells.push_back(cell);
 }
 
@@ -226,10 +267,11 @@ void read_elements(Lines& in, MshContent& content) {
   }
   for (Tag blocks = in.count(0); blocks > 0; --blocks) {
     in.next_of("Elements");
-    const bool surface = in.integer(0) == 2;
+    const bool of_dimension = in.integer(0) == content.dimension;
     const auto groups = content.groups_of.find(in.integer(1));
     const bool taken =
-        surface && (all || (groups != content.groups_of.end() && groups->second.contains(wanted)));
+        of_dimension &&
+        (all || (groups != content.groups_of.end() && groups->second.contains(wanted)));
     const Tag type = in.integer(2);
     for (Tag left = in.count(3); left > 0; --left) {
       in.next_of("Elements");
@@ -265,28 +307,43 @@ void read_sections(Lines& in, MshContent& content) {
 }
 
 void check_group(const Lines& in, const MshContent& content) {
+  const bool surfaces = content.dimension == 2;
   if (content.cells.empty() && content.wanted_group.empty()) {
-    in.fail("the file holds no quadrilaterals and no triangles");
+    in.fail(surfaces ? "the file holds no quadrilaterals and no triangles"
+                     : "the file holds no tetrahedra and no hexahedra");
   }
   if (!content.cells.empty()) return;
   std::string names;
   for (const auto& [name, tag] : content.group_tags) names += (names.empty() ? "" : ", ") + name;
-  in.fail(
-      fmt::format("no surface cell belongs to the group '{}'; physical surfaces of this file: {}",
-                  content.wanted_group, names.empty() ? "none" : names));
+  in.fail(fmt::format("no {0} cell belongs to the group '{1}'; physical {0}s of this file: {2}",
+                      surfaces ? "surface" : "volume", content.wanted_group,
+                      names.empty() ? "none" : names));
 }
 
-SurfaceMesh used_part(const MshContent& content) {
-  SurfaceMesh mesh;
+// The points that cells use, in the order in which these name them, and the cells over them.
+void number_points(const MshContent& content, std::vector<Vec3>& points,
+                   std::vector<Index>& cells) {
   std::unordered_map<Tag, Index> number;
-  for (const std::array<Tag, 4>& cell : content.cells) {
-    for (const Tag tag : cell) {
-      const auto [place, fresh] = number.emplace(tag, static_cast<Index>(mesh.points.size()));
-      if (fresh) mesh.points.push_back(content.nodes.at(tag));
-      mesh.quads.push_back(place->second);
+  for (const auto& cell : content.cells) {
+    for (std::size_t k = 0; k < content.n_nodes; ++k) {
+      const auto [place, fresh] = number.emplace(cell[k], static_cast<Index>(points.size()));
+      if (fresh) points.push_back(content.nodes.at(cell[k]));
+      cells.push_back(place->second);
     }
   }
-  return mesh;
+}
+
+// False after a mistake, which is noted.
+bool read_content(const std::string& file, MshContent& content, Mistakes& mistakes) {
+  try {
+    Lines in(file);
+    read_sections(in, content);
+    check_group(in, content);
+  } catch (const MshMistake& mistake) {
+    mistakes.add(mistake.where, mistake.text);
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -294,15 +351,20 @@ SurfaceMesh used_part(const MshContent& content) {
 SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes& mistakes) {
   MshContent content;
   content.wanted_group = group;
-  try {
-    Lines in(file);
-    read_sections(in, content);
-    check_group(in, content);
-  } catch (const MshMistake& mistake) {
-    mistakes.add(mistake.where, mistake.text);
-    return {};
-  }
-  return used_part(content);
+  SurfaceMesh mesh;
+  if (read_content(file, content, mistakes)) number_points(content, mesh.points, mesh.quads);
+  return mesh;
+}
+
+VolumeMesh read_msh_volume(const std::string& file, const std::string& group, Mistakes& mistakes) {
+  MshContent content;
+  content.dimension = 3;
+  content.wanted_group = group;
+  VolumeMesh mesh;
+  if (!read_content(file, content, mistakes)) return mesh;
+  number_points(content, mesh.points, mesh.cells);
+  mesh.nodes_per_cell = static_cast<int>(content.n_nodes);
+  return mesh;
 }
 
 }  // namespace gannet

@@ -1,10 +1,11 @@
-// Reads the surface cells of a gmsh file.
+// Reads the cells of a gmsh file.
 #pragma once
 
 #include <string>
 
 #include "base/keys.hpp"
 #include "mesh/mesh_keys.hpp"
+#include "mesh/volume_shapes.hpp"
 
 namespace gannet {
 
@@ -14,5 +15,9 @@ namespace gannet {
 /// A mistake in the file is noted in `mistakes` with its line, and an empty mesh is returned.
 /// Throws nothing.
 SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes& mistakes);
+
+/// The tetrahedra or the hexahedra of a gmsh file, as read_msh(); group: of a physical volume. Both
+/// in one group are a mistake.
+VolumeMesh read_msh_volume(const std::string& file, const std::string& group, Mistakes& mistakes);
 
 }  // namespace gannet

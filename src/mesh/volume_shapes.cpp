@@ -231,14 +231,7 @@ bool is_volume_shape(const Keys& shape) {
   return shape.has("block") || shape.has("mapped") || shape.has("rod");
 }
 
-VolumeMesh volume_mesh(const Keys& part, int dimension) {
-  if (!part.has("shape") || !is_volume_shape(part.map("shape"))) {
-    part.mistakes().add(
-        part.where(),
-        part.path() + ": its volume is missing; a 'shape' (block, mapped or rod) is wanted");
-    return {};
-  }
-  const Keys shape = part.map("shape");
+VolumeMesh shape_volume(const Keys& shape, int dimension) {
   if (shape.names().size() != 1) {
     shape.mistakes().add(shape.where(), fmt::format("{}: {} shapes are named; a part has one",
                                                     shape.path(), shape.names().size()));

@@ -48,8 +48,9 @@ std::vector<Key> volume_shape_keys();
 /// Whether the map `shape` names one of them.
 bool is_volume_shape(const Keys& shape);
 
-/// The volume that the part asks for under `shape`; dimension: 2 or 3, of the case. Notes every
-/// mistake that it finds in the case's list and then returns an empty mesh. Throws nothing else.
-VolumeMesh volume_mesh(const Keys& part, int dimension);
+/// The volume of the map `shape` of a part, which names one of them; dimension: 2 or 3, of the
+/// case. Notes every mistake that it finds in the case's list and then returns an empty mesh.
+/// Throws nothing else.
+VolumeMesh shape_volume(const Keys& shape, int dimension);
 
 }  // namespace gannet

@@ -78,6 +78,37 @@ TEST_CASE("mesh of a part: unit and move of the case are applied", "[mesh]") {
   CHECK(mistakes.empty());
 }
 
+TEST_CASE("msh: hexahedra and tetrahedra of a physical volume", "[mesh]") {
+  for (const std::string file : {"block_41.msh", "block_22.msh"}) {
+    Mistakes mistakes;
+    const VolumeMesh core = read_msh_volume(data + file, "core", mistakes);
+    CHECK(core.nodes_per_cell == 8);
+    CHECK(core.cells == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7});
+    CHECK(core.points[6] == Vec3(1, 1, 1));
+    const VolumeMesh cap = read_msh_volume(data + file, "cap", mistakes);
+    CHECK(cap.nodes_per_cell == 4);
+    CHECK(cap.cells == std::vector<Index>{0, 1, 2, 3, 0, 2, 4, 3});
+    CHECK(cap.points[3] == Vec3(0.5, 0.5, 2));
+    CHECK(messages(mistakes).empty());
+    CHECK(read_msh_volume(data + file, "", mistakes).empty());
+    CHECK(
+        messages(mistakes).find("tetrahedra and hexahedra stand in one part; take a part for each "
+                                "by its 'group'") != std::string::npos);
+    Mistakes none;
+    CHECK(read_msh_volume(data + file, "foot", none).empty());
+    CHECK(
+        messages(none).find("no volume cell belongs to the group 'foot'; physical volumes of this "
+                            "file: cap, core") != std::string::npos);
+    Mistakes of_surface;
+    CHECK(read_msh(data + file, "foot", of_surface).quads.size() == 4);
+    CHECK(messages(of_surface).empty());
+  }
+  Mistakes mistakes;
+  CHECK(read_msh_volume(data + "panel_41.msh", "", mistakes).empty());
+  CHECK(messages(mistakes).find("the file holds no tetrahedra and no hexahedra") !=
+        std::string::npos);
+}
+
 TEST_CASE("msh 4.1: each way to be broken has its line and reason", "[mesh][errors]") {
   const std::string file = "panel_41.msh";
   const auto said = [&](const char* old_text, const char* new_text, const char* group = "") {
