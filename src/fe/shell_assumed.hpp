@@ -255,12 +255,23 @@ GANNET_INLINE Vec8 bound_of_leaning(const Leaning<N>& t, Vec8 membrane, Vec8 ben
   return larger_eigenvalue(membrane + bending * p2, bending * w2, bending * sqrt(p2 * w2));
 }
 
+/// Fibres halfway through the step, from those of n-1 and the motion that those see.
+template <int N>
+GANNET_INLINE Leaning<N> leaning_halfway(const Leaning<N>& t, const Relative<N>& r) {
+  Leaning<N> middle;
+  for (int a = 0; a < N; ++a) {
+    middle.x[a] = t.x[a] + Vec8(0.5) * r.px[a];
+    middle.y[a] = t.y[a] + Vec8(0.5) * r.py[a];
+  }
+  return middle;
+}
+
 /// Carries the fibres in `state` from n-1 to n.
 template <int N>
-GANNET_INLINE void follow_leaning(const Leaning<N>& t, const Relative<N>& r, double* state) {
+GANNET_INLINE void follow_leaning(const Leaning<N>& old, const Relative<N>& r, double* state) {
   for (int a = 0; a < N; ++a) {
-    (t.x[a] + r.px[a]).store(state + 16 * a);
-    (t.y[a] + r.py[a]).store(state + 16 * a + 8);
+    (old.x[a] + r.px[a]).store(state + 16 * a);
+    (old.y[a] + r.py[a]).store(state + 16 * a + 8);
   }
 }
 

@@ -274,8 +274,11 @@ GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, Shell
 
   const QuadGeometry half = quad_geometry(corners.middle);
   const Leaning<4> old = load_leaning<4>(state.fibres);
-  const Relative<4> motion = relative_motion<4>(half, old, corners.v, corners.w, Vec8(pass.dt));
-  const QuadFields fields = quad_fields(half, old, motion);
+  const Vec8 dt(pass.dt);
+  const Leaning<4> middle =
+      leaning_halfway<4>(old, relative_motion<4>(half, old, corners.v, corners.w, dt));
+  const Relative<4> motion = relative_motion<4>(half, middle, corners.v, corners.w, dt);
+  const QuadFields fields = quad_fields(half, middle, motion);
   follow_leaning<4>(old, motion, state.fibres);
   const QuadGeometry now = quad_geometry(corners.x);
   QuadForces forces;
@@ -404,7 +407,10 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
 
   const FlatGeometry<3> half = triangle_geometry(corners.middle);
   const Leaning<3> old = load_leaning<3>(state.fibres);
-  const Relative<3> motion = relative_motion<3>(half, old, corners.v, corners.w, Vec8(pass.dt));
+  const Vec8 dt(pass.dt);
+  const Leaning<3> middle =
+      leaning_halfway<3>(old, relative_motion<3>(half, old, corners.v, corners.w, dt));
+  const Relative<3> motion = relative_motion<3>(half, middle, corners.v, corners.w, dt);
   follow_leaning<3>(old, motion, state.fibres);
   ShellIncrements d = middle_increments<3>(half, motion);
   d.xz = d.yz = Vec8(0.0);
@@ -412,7 +418,7 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
   const Vec8 third(1.0 / 3.0);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const Vec8 side = side_shear<3>(half, old, motion, i, j);
+    const Vec8 side = side_shear<3>(half, middle, motion, i, j);
     d.xz += third * (half.B1[j] - half.B1[i]) * side;
     d.yz += third * (half.B2[j] - half.B2[i]) * side;
     around += side;
@@ -445,9 +451,9 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
   for (int a = 0; a < 3; ++a) {
     forces.ux[a] = forces.uy[a] = forces.uz[a] = forces.px[a] = forces.py[a] = Vec8(0.0);
   }
-  MiddleForces middle;
-  middle.add(r, now.area);
-  add_middle<3>(now, middle, forces);
+  MiddleForces of_middle;
+  of_middle.add(r, now.area);
+  add_middle<3>(now, of_middle, forces);
   const Vec8 Q = factor(now) * turned;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
