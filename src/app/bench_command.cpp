@@ -141,11 +141,13 @@ BenchResult elements_result(Simulation& simulation, Block& block, Pass&& pass) {
 
 /// A sheet of n x n shells of 20 mm, 5 points, elastic-plastic, moving. more: keys of the shell.
 /// Of "flowing" every point returns to the yield surface in every step.
-BenchResult bench_shell(int n, const char* more = "", const char* material = "metal") {
+/// of_shape: of the plate.
+BenchResult bench_shell(int n, const char* more = "", const char* material = "metal",
+                        const char* of_shape = "") {
   const auto simulation = moving_elements(
       fmt::format("{{sheet: {{shell: {{material: {3}, thickness: 3 mm, points: 5{2}}}, shape: "
-                  "{{plate: {{size: [{0} m, {0} m], elements: [{1}, {1}]}}}}}}}}",
-                  0.02 * n, n, more, material));
+                  "{{plate: {{size: [{0} m, {0} m], elements: [{1}, {1}]{4}}}}}}}}}",
+                  0.02 * n, n, more, material, of_shape));
   return elements_result(
       *simulation, simulation->scene.store.get<ShellBlocks>().list.front(),
       [](auto& block, Nodes& nodes, double dt) { shell_pass(block, nodes, dt); });
@@ -197,6 +199,7 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.shell.flat.50k", [] { return bench_shell(224, ", warping: no"); }},
       {"fe.shell.full.50k", [] { return bench_shell(224, ", formulation: fully_integrated"); }},
       {"fe.shell.full.400k", [] { return bench_shell(632, ", formulation: fully_integrated"); }},
+      {"fe.shell.triangles.100k", [] { return bench_shell(224, "", "metal", ", triangles: yes"); }},
       {"fe.shell.flat.400k", [] { return bench_shell(632, ", warping: no"); }},
       {"fe.solid.pass.50k", [] { return bench_solid(37); }},
       {"fe.solid.eight_points.50k", [] { return bench_solid(37, "eight_points"); }},

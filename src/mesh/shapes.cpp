@@ -32,6 +32,17 @@ std::optional<std::array<double, N>> lengths(const Keys& keys, std::string_view 
   return length;
 }
 
+// The surface with each quadrilateral cut along its diagonal 1-3, where the keys ask for it.
+SurfaceMesh cut_if_asked(const Keys& keys, SurfaceMesh mesh) {
+  if (!keys.has("triangles") || !keys.flag("triangles")) return mesh;
+  std::vector<Index> cells;
+  for (std::size_t k = 0; k < mesh.quads.size(); k += 4) {
+    for (const std::size_t a : {0, 1, 2, 2, 0, 2, 3, 3}) cells.push_back(mesh.quads[k + a]);
+  }
+  mesh.quads = std::move(cells);
+  return mesh;
+}
+
 SurfaceMesh plate(const Keys& keys) {
   const auto size = lengths<2>(keys, "size");
   const auto n = counts<2>(keys, "elements");
@@ -47,7 +58,7 @@ SurfaceMesh plate(const Keys& keys) {
   if (keys.has("lowest_point")) {
     centre = keys.vector("lowest_point") + (tilt < 0 ? Vec3(-0.5 * along) : Vec3(0.5 * along));
   }
-  return parallelogram(centre - 0.5 * (along + across), along, across, *n);
+  return cut_if_asked(keys, parallelogram(centre - 0.5 * (along + across), along, across, *n));
 }
 
 SurfaceMesh plane(const Keys& keys) {
@@ -62,7 +73,7 @@ SurfaceMesh plane(const Keys& keys) {
                   "span no area");
     return {};
   }
-  return parallelogram(keys.vector("corner"), along, across, *n);
+  return cut_if_asked(keys, parallelogram(keys.vector("corner"), along, across, *n));
 }
 
 SurfaceMesh wedge(const Keys& keys) {
@@ -190,6 +201,10 @@ SurfaceMesh box_surface(const Vec3& from, const Vec3& to, std::array<int, 3> n) 
 }
 
 std::vector<Key> shape_keys() {
+  const Key triangles{.name = "triangles",
+                      .kind = Kind::flag,
+                      .text = "each element is cut into two triangles",
+                      .fallback = "no"};
   const Key size{.name = "size",
                  .kind = Kind::numbers,
                  .unit = dim::length,
@@ -199,7 +214,7 @@ std::vector<Key> shape_keys() {
       {.name = "plate",
        .kind = Kind::map,
        .text = "a rectangle, tilted about the y axis",
-       .keys = {size, elements_key("number of elements along the two edges"),
+       .keys = {size, elements_key("number of elements along the two edges"), triangles,
                 angle("tilt", "angle by which the edge at larger x is raised (deadrise)", false),
                 place_key("centre", "centre of the plate; the origin unless something is said"),
                 place_key("lowest_point",
@@ -211,7 +226,7 @@ std::vector<Key> shape_keys() {
        .keys = {place_key("corner", "the corner where both edges begin", true),
                 place_key("along", "the first edge, as a vector", true),
                 place_key("across", "the second edge, as a vector", true),
-                elements_key("number of elements along the two edges")}},
+                elements_key("number of elements along the two edges"), triangles}},
       {.name = "wedge",
        .kind = Kind::map,
        .text = "two plates that meet at a keel along y",

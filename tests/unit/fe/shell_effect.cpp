@@ -195,6 +195,19 @@ TEST_CASE("shell effect: a mesh of quadrilaterals and triangles is one part", "[
   CHECK(model.vote.who.find("panel: element") == 0);
 }
 
+TEST_CASE("shell effect: a plate may be cut into triangles", "[fe]") {
+  std::string cut = panel;
+  cut.insert(cut.find("[6, 5]") + 6, ", triangles: yes");
+  const auto b = build(head + aluminium + cut);
+  const auto& blocks = b->scene.store.get<ShellBlocks>().list;
+  REQUIRE(blocks.size() == 1);
+  CHECK(blocks.front().section.kind == ShellKind::triangle);
+  CHECK(blocks.front().n_elements == 60);
+  double mass = 0;
+  for (const Line& x : b->scene.nodes.x) mass += x.w;
+  CHECK(mass == Approx(2700 * 0.003 * 0.24).epsilon(1e-13));
+}
+
 TEST_CASE("shell effect: points of a part may be moved by formulas", "[fe][errors]") {
   CHECK(mistakes_of(head + aluminium + panel + "    map: [x, y, \"1/(x - x)\"]\n")
             .find("parts.panel.map: is not finite at") != std::string::npos);
