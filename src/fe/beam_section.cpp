@@ -37,6 +37,18 @@ bool wall_fits(const Keys& keys, double t, double side) {
   return false;
 }
 
+BeamSection read_i_section(const Keys& keys) {
+  const double b = keys.number("width");
+  const double h = keys.number("height");
+  const double f = keys.number("flange");
+  const double w = keys.number("web");
+  if (!(2 * f < h))
+    keys.complain("flange", fmt::format("two of {:g} m do not fit into {:g} m", f, h));
+  if (!(w < b))
+    keys.complain("web", fmt::format("{:g} m is not less than {:g} m, the width", w, b));
+  return 2 * f < h && w < b ? i_section(b, h, f, w) : BeamSection{};
+}
+
 BeamSection general_section(const Keys& keys) {
   return {.A = keys.number("area"),
           .I_y = keys.number("I_y"),
@@ -93,6 +105,17 @@ BeamSection box_section(double b, double h, double t) {
           .A_z = 2 * t * (h - t)};
 }
 
+BeamSection i_section(double b, double h, double f, double w) {
+  const double inner = h - 2 * f;
+  const double thin = 2 * b * f * f * f + (h - f) * w * w * w;
+  return {.A = 2 * b * f + inner * w,
+          .I_y = (b * h * h * h - (b - w) * inner * inner * inner) / 12,
+          .I_z = (2 * f * b * b * b + inner * w * w * w) / 12,
+          .J = thin / 3,
+          .A_y = 5.0 / 6.0 * 2 * b * f,
+          .A_z = w * (h - f)};
+}
+
 std::vector<Key> beam_section_keys() {
   const Key width = side("width", "side along y");
   const Key height = side("height", "side along z, the direction of `up`");
@@ -105,6 +128,9 @@ std::vector<Key> beam_section_keys() {
           map_of("solid_round", "a full circle", {diameter}),
           map_of("tube", "a round tube", {diameter, wall}),
           map_of("box", "a rectangular tube", {width, height, wall}),
+          map_of("i", "two flanges across `up` and a web between them",
+                 {width, height, side("flange", "thickness of a flange"),
+                  side("web", "thickness of the web")}),
           map_of("general", "any section, by its numbers",
                  {{.name = "area",
                    .unit = dim::area,
@@ -123,9 +149,10 @@ BeamSection read_beam_section(const Keys& section) {
   if (names.size() != 1) {
     section.mistakes().add(
         section.where(),
-        fmt::format("{}: {} sections are named; one of rectangle, solid_round, tube, box, general "
-                    "is wanted",
-                    section.path(), names.size()));
+        fmt::format(
+            "{}: {} sections are named; one of rectangle, solid_round, tube, box, i, general "
+            "is wanted",
+            section.path(), names.size()));
     return {};
   }
   const Keys keys = section.map(names[0]);
@@ -146,6 +173,9 @@ BeamSection read_beam_section(const Keys& section) {
     const double h = keys.number("height");
     const double t = keys.number("wall");
     return wall_fits(keys, t, std::min(b, h)) ? box_section(b, h, t) : BeamSection{};
+  }
+  if (names[0] == "i" && complete(keys, {"width", "height", "flange", "web"})) {
+    return read_i_section(keys);
   }
   if (names[0] == "general" && complete(keys, {"area", "I_y", "I_z", "J"})) {
     return general_section(keys);

@@ -35,6 +35,12 @@ BeamSection tube_section(double d, double t);
 /// (thin walls), shear carried by the walls along it.
 BeamSection box_section(double b, double h, double t);
 
+/// I of overall width b along y and height h along z, flange thickness f < h/2 and web thickness w
+/// < b [m]: two flanges and a web without fillets. J after thin walls, sum s t^3/3; shear along z
+/// by the web, w (h - f), and along y by the flanges, 5/6 of their area (Young & Budynas, Roark's
+/// Formulas for Stress and Strain).
+BeamSection i_section(double b, double h, double f, double w);
+
 /// The keys of the map `section`.
 std::vector<Key> beam_section_keys();
 
