@@ -33,6 +33,8 @@ void set_element(TrussBlock& block, Index e, double length) {
 
 TrussPass pass_of(TrussBlock& block, Nodes& nodes, double dt_old) {
   return {.EA = block.EA,
+          .corners_of_law = block.law.data(),
+          .n_corners = static_cast<int>(block.law.size()),
           .mu = block.mu,
           .tension_only = block.tension_only,
           .damping_ratio = block.damping_ratio,
@@ -46,6 +48,19 @@ TrussPass pass_of(TrussBlock& block, Nodes& nodes, double dt_old) {
 }
 
 }  // namespace
+
+std::vector<TrussCorner> law_through(const std::vector<std::array<double, 2>>& points) {
+  std::vector<TrussCorner> corners;
+  std::array<double, 2> last{0, 0};
+  double slope = 0;
+  for (const auto& p : points) {
+    const double next = (p[1] - last[1]) / (p[0] - last[0]);
+    corners.push_back({last[0], next - slope});
+    slope = next;
+    last = p;
+  }
+  return corners;
+}
 
 void rest_at_present_length(TrussBlock& block, const Nodes& nodes) {
   const Index n = block.n_elements();

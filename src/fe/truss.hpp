@@ -2,6 +2,7 @@
 // tension only; damped, prestrained, and broken beyond an ultimate force where asked for.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ namespace gannet {
 /// The elements of one part: element k joins ends[2 k] and ends[2 k + 1].
 struct TrussBlock {
   std::string name;
-  double EA = 0;              ///< axial stiffness [N], > 0
+  double EA = 0;  ///< axial stiffness, or the largest slope of the law [N], > 0
+  /// Force over strain in straight pieces, the first from (0, 0); none: EA at every strain.
+  std::vector<TrussCorner> law;
   double mu = 0;              ///< mass per length [kg/m], > 0
   bool tension_only = false;  ///< shortened elements carry nothing (a cable)
   double dt_factor = 0.9;     ///< share of the stable step that is voted for
@@ -42,6 +45,10 @@ struct TrussBlock {
   }
 };
 
+/// The corners of a law through (0, 0) and these points of strain and force [N], whose strains rise
+/// and forces do not fall. Throws nothing.
+std::vector<TrussCorner> law_through(const std::vector<std::array<double, 2>>& points);
+
 /// All trusses of a scene (scene.store.get<TrussBlocks>()); addresses never change.
 struct TrussBlocks {
   std::deque<TrussBlock> list;
@@ -62,12 +69,14 @@ void add_truss_masses(const TrussBlock& block, Nodes& nodes);
 /// threads.
 ///   F = EA (l - l0)/l0 + EA/l0 (beta + zeta l0/c) (l(n) - l(n-1))/dt_old,  c^2 = EA/mu,
 /// (engineering strain, force per undeformed section), a cable never below 0, and without damping
-/// where it is slack. The rate of l is that of the lengths themselves, so that no rigid motion is
-/// damped. Internal energy is the strain energy EA (l - l0)^2/(2 l0), a state function; damping
-/// takes (F_d(n-1) + F_d(n))/2 (l(n) - l(n-1)). An element with |F| at the strength or above
-/// carries nothing from this level on: its strain energy, and what its old force did over the step,
-/// leave as "eroded". The stable step of an element, from its own lumped mass m = mu l0/2: omega^2
-/// = 2 K/m with K = EA/l0 along it, and F/l across it where that is larger; dt = (2/omega) (sqrt(1
+/// where it is slack. With a law of pieces F = sum k_j (eps - eps_j)_+, and EA, its largest slope,
+/// stands in damping and stable step. The rate of l is that of the lengths themselves, so that no
+/// rigid motion is damped. Internal energy is the strain energy EA (l - l0)^2/(2 l0), a state
+/// function; damping takes (F_d(n-1) + F_d(n))/2 (l(n) - l(n-1)). An element with |F| at the
+/// strength or above carries nothing from this level on: its strain energy, and what its old force
+/// did over the step, leave as "eroded". The stable step of an element, from its own lumped mass m
+/// = mu l0/2: omega^2 = 2 K/m with K = EA/l0 along it, and F/l across it where that is larger; dt =
+/// (2/omega) (sqrt(1
 /// + xi^2) - xi) with xi = (beta + zeta l0/c) omega/2, which is l0/c in the usual case.
 ElementWork truss_pass(TrussBlock& block, Nodes& nodes, double dt_old);
 

@@ -20,9 +20,17 @@ enum TrussValue {
   truss_values
 };
 
+/// A corner of a law: beyond this strain the force rises by so much more per strain.
+struct TrussCorner {
+  double strain = 0;
+  double slope = 0;  ///< change of slope [N]
+};
+
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
 struct TrussPass {
-  double EA = 0;                          ///< [N]
+  double EA = 0;                                ///< largest slope of the law [N]
+  const TrussCorner* corners_of_law = nullptr;  ///< null: EA at every strain
+  int n_corners = 0;
   double mu = 0;                          ///< mass per length [kg/m]
   bool tension_only = false;              ///< shortened elements carry nothing
   double damping_ratio = 0;               ///< zeta of each element's highest mode

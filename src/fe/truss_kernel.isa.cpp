@@ -29,6 +29,23 @@ struct Constants {
         strength(p.strength) {}
 };
 
+/// Force and energy of a law of straight pieces: F = sum k_j (eps - eps_j)_+, W = l0 sum k_j (eps -
+/// eps_j)_+^2/2. The first piece goes on below 0. K: EA/l0, 0 where the element is gone.
+GANNET_INLINE void pieces(const TrussPass& pass, Vec8 K, Vec8 l0, Vec8 e, Vec8& F, Vec8& energy) {
+  const Vec8 there = K * Vec8(1 / pass.EA);  // 1/l0 or 0
+  const Vec8 strain = e * there;
+  F = Vec8(pass.corners_of_law[0].slope) * strain;
+  energy = Vec8(0.5) * F * strain;
+  for (int j = 1; j < pass.n_corners; ++j) {
+    const TrussCorner& corner = pass.corners_of_law[j];
+    const Vec8 beyond = max(strain - Vec8(corner.strain), Vec8(0.0));
+    const Vec8 more = Vec8(corner.slope) * beyond;
+    F += more;
+    energy += Vec8(0.5) * more * beyond;
+  }
+  energy *= l0;
+}
+
 GANNET_INLINE Vec8 size_of(Vec8 a) { return max(a, -a); }
 
 /// Eight elements: state to level n, forces added. damped, breaks: whether the part asks for them.
@@ -52,6 +69,7 @@ GANNET_INLINE void truss_block(const TrussPass& pass, const Constants& k, std::i
   if (pass.tension_only) e = max(e, zero);
   Vec8 F = K * e;
   Vec8 energy = Vec8(0.5) * F * e;
+  if (pass.n_corners > 0) pieces(pass, K, l0, e, F, energy);
   const Vec8 old_energy = value(truss_energy);
   const Vec8 stretch = l - value(truss_length);
   Vec8 D(0.0);

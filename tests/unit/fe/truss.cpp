@@ -138,3 +138,22 @@ TEST_CASE("truss: an element that breaks carries nothing and hands its energy ov
   CHECK(block.n_broken == 1);
   CHECK(work.eroded == 0);
 }
+
+TEST_CASE("truss: a law of straight pieces by hand", "[fe]") {
+  Scene scene;
+  TrussBlock block{.name = "rope", .mu = 0.5, .tension_only = true};
+  block.law = law_through({{0.01, 1e4}, {0.03, 7e4}});
+  REQUIRE(block.law.size() == 2);
+  block.EA = 3e6;  // 1e6 N, then 3e6 N
+  chain(scene, block, 2, 0.1);
+  scene.nodes.x[2].x += 0.0025;  // strain 0.025: 10 kN + 3e6 0.015
+  const double energy = truss_pass(block, scene.nodes, 0).internal;
+  CHECK(block.value(1, truss_force) == Approx(5.5e4).epsilon(1e-12));
+  CHECK(block.value(0, truss_force) == Approx(0).margin(1e-6));
+  // 0.1 (1e6 0.025^2/2 + 2e6 0.015^2/2)
+  CHECK(energy == Approx(0.1 * (312.5 + 225)).epsilon(1e-12));
+  CHECK(block.shortest == Approx(0.1 / std::sqrt(3e6 / 0.5)).epsilon(1e-12));
+  scene.nodes.x[2].x -= 0.005;
+  truss_pass(block, scene.nodes, 0);
+  CHECK(block.value(1, truss_force) == 0);
+}
