@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "plan/effect.hpp"
+#include "scene/surface_data.hpp"
 
 namespace gannet {
 
@@ -33,7 +34,9 @@ void push_cells(PressureLoad& load, const Scene& scene, double t) {
   parallel_for(part.n_cells(), chunk, [&](Index begin, Index end) {
     for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
       const std::size_t k = c * n;
-      const double p = of_place ? pressure_of(load, scene, part, c, t) : everywhere;
+      const bool left = load.gone != nullptr && (*load.gone)[c] != 0;
+      const double there = of_place ? pressure_of(load, scene, part, c, t) : everywhere;
+      const double p = left ? 0 : there;
       Line* to = load.corner_force.data() + k;
       if (n == 4) {
         const auto force =
@@ -117,6 +120,9 @@ Work work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& 
 
 void add_pressure_load(PressureLoad& load, Scene& scene, Models& models) {
   prepare(load, scene);
+  const auto& surfaces = scene.store.get<SurfaceData>().of_part;
+  const auto number = static_cast<std::size_t>(load.part);
+  if (number < surfaces.size()) load.gone = surfaces[number].gone;
   Model& model = models.of_part(scene, load.part);
   LedgerEntry& work = models.ledger.entry("pressure load", load.name);
   work.external = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct PressureLoad {
   int part = 0;
   double side = -1;   ///< +1 pushes along the normals, -1 against them
   Function pressure;  ///< p(t, x), x the centre of a cell [Pa]
+  /// Per cell whether it has left, which nothing pushes any more; nullptr where none can.
+  const std::vector<std::uint8_t>* gone = nullptr;
   // Built by prepare():
   std::vector<Index> first;  ///< of node k of the part: entries first[k] .. first[k+1] of `corners`
   std::vector<Index> corners;  ///< cell * nodes_per(cell) + corner, in rising order

@@ -195,6 +195,7 @@ void set_law(Scene& scene, const Keys& keys, NodeToSegment& c) {
   assert(water.spacing > 0 && water.c0 > 0 && shell.thickness > 0 && shell.young > 0);
   const double d = keys.number_or("thickness", 0.5 * (shell.thickness + water.spacing));
   c.range = GapRange::of(d);
+  c.surface.gone = shell.gone;
   const double rate = water.c0 / water.spacing;
   c.law.rate2 = keys.number("stiffness") * rate * rate;
   c.law.stiffest = share_of_membrane * shell.young * shell.thickness;

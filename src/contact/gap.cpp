@@ -23,6 +23,7 @@ Nearest nearest_segment(const Surface& surface, std::span<const Index> candidate
   double best = near;
   double best2 = near * near;
   for (const Index s : candidates) {
+    if (has_left(surface, s)) continue;
     const SegmentPlace& place = surface.place[static_cast<std::size_t>(s)];
     const Vec3 r = x - place.centre;
     const double apart = place.radius + best;

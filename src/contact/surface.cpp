@@ -165,7 +165,32 @@ Surface make_surface(const Part& part) {
   return surface;
 }
 
+namespace {
+
+/// Makes a rim around segments whose elements have left since the last look. What comes of it is a
+/// function of who has left, not of when.
+void open_around_left(Surface& surface) {
+  if (surface.gone == nullptr) return;
+  surface.left.resize(surface.segments.size(), 0);
+  for (std::size_t s = 0; s < surface.segments.size(); ++s) {
+    if ((*surface.gone)[s] == 0 || surface.left[s] != 0) continue;
+    surface.left[s] = 1;
+    for (const Index other : surface.segments[s].neighbour) {
+      if (other < 0) continue;
+      for (Index& back : surface.segments[static_cast<std::size_t>(other)].neighbour) {
+        if (back == static_cast<Index>(s)) back = -1;
+      }
+    }
+    for (const Index node : surface.segments[s].corner) {
+      surface.at_rim[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+}
+
+}  // namespace
+
 void update_surface(const Nodes& nodes, Surface& surface) {
+  open_around_left(surface);
   for (std::size_t i = 0; i < surface.node.size(); ++i) {
     surface.x[i] = nodes.x[static_cast<std::size_t>(surface.node[i])];
     surface.node_normal[i].setZero();
@@ -182,6 +207,7 @@ void update_surface(const Nodes& nodes, Surface& surface) {
     double radius2 = 0;
     for (const Vec3& q : p) radius2 = std::max(radius2, (q - place.centre).squaredNorm());
     place.radius = std::sqrt(radius2);
+    if (has_left(surface, static_cast<Index>(s))) continue;
     for (int k = 0; k < g.n_corners; ++k) {
       surface.node_normal[static_cast<std::size_t>(g.corner[static_cast<std::size_t>(k)])] +=
           place.normal;

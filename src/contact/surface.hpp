@@ -13,7 +13,7 @@
 
 namespace gannet {
 
-/// One segment: what does not change during a run.
+/// One segment: what does not change during a run, but for neighbours that leave.
 struct Segment {
   Corners corner{};   ///< entries of Surface::node; unused ones repeat the last
   int n_corners = 0;  ///< 2: line, 3: triangle, 4: quad
@@ -30,8 +30,11 @@ struct SegmentPlace {
 };
 
 struct Surface {
-  Array<Index> node;            ///< scene node of each surface node, ascending
-  Array<std::int64_t> cell_id;  ///< stable number of each segment's cell
+  /// Per segment whether its element has left; nullptr where none can. See ShellSurface::gone.
+  const std::vector<std::uint8_t>* gone = nullptr;
+  std::vector<std::uint8_t> left;  ///< those of them whose edges have become a rim
+  Array<Index> node;               ///< scene node of each surface node, ascending
+  Array<std::int64_t> cell_id;     ///< stable number of each segment's cell
   std::vector<Segment> segments;
   std::vector<Corners> corners;      ///< Segment::corner once more, for the search
   std::vector<std::uint8_t> at_rim;  ///< per surface node: an end of a rim or junction
@@ -46,8 +49,14 @@ struct Surface {
 /// side; where three or more meet, and at the rim, a sheet ends.
 Surface make_surface(const Part& part);
 
-/// Takes positions from the node table and finds places and normals.
+/// Takes positions from the node table and finds places and normals. Where elements have left, the
+/// edges around them become a rim.
 void update_surface(const Nodes& nodes, Surface& surface);
+
+/// True where the element of a segment has left.
+inline bool has_left(const Surface& surface, Index segment) {
+  return !surface.left.empty() && surface.left[static_cast<std::size_t>(segment)] != 0;
+}
 
 /// Closest point of one segment.
 Closest closest_on_segment(const Surface& surface, Index segment, const Vec3& x);

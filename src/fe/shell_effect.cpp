@@ -129,6 +129,7 @@ struct ShellPart {
   int part = -1;
   std::vector<ShellBlock*> blocks;
   Array<double> thickness, stress, plastic, damage;
+  std::vector<std::uint8_t> gone;  ///< per cell whether it has left; empty where none can
   Array<double> membrane_force, moment, shear_force;
 };
 
@@ -283,7 +284,9 @@ void state(const Keys& root, Scene& scene) {
     track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
-    surfaces[static_cast<std::size_t>(number)] = {section.thickness, material.E};
+    if (material.failure.given()) shell.gone.assign(static_cast<std::size_t>(part.n_cells()), 0);
+    surfaces[static_cast<std::size_t>(number)] = {section.thickness, material.E,
+                                                  shell.gone.empty() ? nullptr : &shell.gone};
   }
 }
 
@@ -309,7 +312,20 @@ const ShellBlock& stiffest(const ShellPart& part) {
       [](const ShellBlock* a, const ShellBlock* b) { return stable_step(*a) < stable_step(*b); });
 }
 
-ElementWork pass_over_part(const ShellPart& part, Nodes& nodes, double dt_old) {
+/// Notes which cells have left, for those who push on them.
+void mark_gone(ShellPart& part) {
+  if (part.gone.empty()) return;
+  for (const ShellBlock* block : part.blocks) {
+    parallel_for(block->n_elements, node_chunk, [&](Index begin, Index end) {
+      for (Index e = begin; e < end; ++e) {
+        const bool left = block->value(e, block->layout.thickness()) == 0;
+        part.gone[static_cast<std::size_t>(block->cell(e))] = left ? 1 : 0;
+      }
+    });
+  }
+}
+
+ElementWork pass_over_part(ShellPart& part, Nodes& nodes, double dt_old) {
   ElementWork sum;
   for (ShellBlock* block : part.blocks) {
     const ElementWork work = shell_pass(*block, nodes, dt_old);
@@ -318,6 +334,7 @@ ElementWork pass_over_part(const ShellPart& part, Nodes& nodes, double dt_old) {
     sum.hourglass += work.hourglass;
     sum.eroded += work.eroded;
   }
+  mark_gone(part);
   return sum;
 }
 

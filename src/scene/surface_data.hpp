@@ -2,6 +2,7 @@
 // the effect that makes the elements.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace gannet {
@@ -10,6 +11,9 @@ namespace gannet {
 struct ShellSurface {
   double thickness = 0;  ///< of the shell at the start [m]
   double young = 0;      ///< Young's modulus [Pa]
+  /// For each cell of the part whether it has left; nullptr where none can. Up to date in the force
+  /// stage once the elements have been passed over.
+  const std::vector<std::uint8_t>* gone = nullptr;
 };
 
 /// scene.store.get<SurfaceData>().of_part[p] belongs to scene.parts[p]; may be shorter than the

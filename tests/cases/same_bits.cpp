@@ -134,6 +134,12 @@ Sample mixed_sample() {
   return {[file] { return std::make_unique<WatchedRun>(mixed_shells(file)); }, 150, false};
 }
 
+Sample torn_sample() {
+  const std::vector<std::string> set{"dx=5mm", "output.checkpoint=never"};
+  return {[set] { return std::make_unique<WatchedRun>("tests/hard/torn_panel.yaml", set); }, 260,
+          false};
+}
+
 Sample lines_sample() {
   return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
 }
@@ -386,6 +392,17 @@ TEST_CASE(
     "[bits]") {
   check_threads(mixed_sample());
   check_restart(mixed_sample());
+}
+
+TEST_CASE("same bits: water that tears a panel, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(torn_sample());
+  check_restart(torn_sample());
+  const auto end = run(torn_sample(), 1);
+  double n = 0;
+  for (const Measure& m : end->s->scene.measures) {
+    if (m.name == "shell.panel.eroded") m.sample(&n);
+  }
+  CHECK(n > 20);
 }
 
 TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and restarts",

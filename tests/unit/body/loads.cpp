@@ -75,6 +75,20 @@ TEST_CASE("pressure: p A on a distorted unit plate, against the normals", "[body
   CHECK((total_force(back->scene) - Vec3(0, 0, 1000)).norm() < 1e-11);
 }
 
+TEST_CASE("pressure: pushes on no cell that has left", "[body]") {
+  auto world = plate_world("{pressure: {on: panel, value: 1 kPa}}", 3, 1);
+  PressureLoad load;
+  load.part = 0;
+  load.pressure = Function(1000);
+  std::vector<std::uint8_t> gone{0, 1, 0};
+  load.gone = &gone;
+  prepare(load, world->scene);
+  add_pressure(load, world->scene, 0);
+  Vec3 sum = Vec3::Zero();
+  for (const Line& f : load.force) sum += xyz(f);
+  CHECK(sum.norm() == Approx(1000 * 2.0 / 3));  // of a plate of one square metre
+}
+
 TEST_CASE("pressure: follows the surface as it turns", "[body]") {
   auto world = plate_world("{pressure: {on: panel, value: 2 Pa, side: back}}");
   for (Line& x : world->scene.nodes.x) x = {0, x.x, x.y, x.w};  // z along x now

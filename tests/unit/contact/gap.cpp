@@ -144,6 +144,45 @@ TEST_CASE("gap: a point may pass around the rim", "[contact]") {
   CHECK((g.normal + Vec3::UnitZ()).norm() < 1e-14);
 }
 
+TEST_CASE("gap: an element that has left leaves a hole with a rim around it", "[contact]") {
+  Sheet s(flat());
+  std::vector<std::uint8_t> gone(16, 0);
+  s.surface.gone = &gone;
+  gone[5] = 1;  // 1 < x < 2, 1 < y < 2
+  update_surface(s.scene.nodes, s.surface);
+  std::int32_t side = 0;
+  CHECK(s.gap({1.5, 1.5, 0.2}, side).segment == -1);  // half a unit from its rim
+  // Beside the hole nothing has changed.
+  Gap g = s.gap({0.7, 1.5, 0.3}, side);
+  CHECK(g.segment == 4);
+  CHECK((g.normal - Vec3::UnitZ()).norm() < 1e-14);
+  // A point may pass around the new rim, as around an old one.
+  g = s.gap({1.1, 1.5, 0.1}, side);
+  CHECK(side == 1);
+  g = s.gap({1.2, 1.5, 0}, side);
+  CHECK((g.normal - Vec3::UnitX()).norm() < 1e-14);
+  CHECK(g.penetration == Approx(0.2));
+  g = s.gap({1.1, 1.5, -0.1}, side);
+  CHECK(side == -1);
+  CHECK(g.penetration == Approx(0.4 - std::hypot(0.1, 0.1)));
+  // So may one at the corner of the hole.
+  side = 0;
+  (void)s.gap({1.1, 1.1, 0.1}, side);
+  (void)s.gap({1.1, 1.1, -0.1}, side);
+  CHECK(side == -1);
+  // Who leaves later opens the same rim as who leaves at once.
+  gone[6] = 1;
+  update_surface(s.scene.nodes, s.surface);
+  Sheet at_once(flat());
+  at_once.surface.gone = &gone;
+  update_surface(at_once.scene.nodes, at_once.surface);
+  CHECK(at_once.surface.at_rim == s.surface.at_rim);
+  for (std::size_t k = 0; k < 16; ++k) {
+    if (gone[k] != 0) continue;
+    CHECK(at_once.surface.segments[k].neighbour == s.surface.segments[k].neighbour);
+  }
+}
+
 TEST_CASE("gap: beside a keel the side is right whatever segment is the nearest", "[contact]") {
   // A roof of two planes at 120 degrees to each other; points outside and inside near the ridge.
   test::Builder b;
