@@ -197,7 +197,8 @@ __attribute__((always_inline)) inline J2Return<T> general_return(const J2Law& la
   T s = T(1.5) * trial.guess * inverse_rest;
   s = select(less(s, most), s, most);
   const bool straight = law.straight();
-  for (int i = 0; i < max_return_iterations; ++i) {
+  const int most_iterations = any(yields) ? max_return_iterations : 0;
+  for (int i = 0; i < most_iterations; ++i) {
     const T shrink_a = reciprocal(one + k_a * s);
     const T shrink_d = reciprocal(one + k_d * s);
     const T part_a = c_a * shrink_a * shrink_a;
