@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 
 #include "base/parallel.hpp"
 
@@ -117,33 +118,83 @@ bool holds_particles(const Scene& scene, const Field& field, Index& first) {
   return field.over == Over::nodes && field.count() >= scene.particles.end;
 }
 
+/// A stretch of bytes that entries of a field have, one every `stride`.
+struct Pieces {
+  std::byte* first;
+  std::ptrdiff_t stride;
+  std::size_t bytes;
+};
+
+/// Permutes pieces of N bytes by way of `buffer`.
+template <std::size_t N>
+void permute_pieces_of(const Pieces& pieces, std::span<const Index> order, std::byte* buffer) {
+  const auto n = static_cast<Index>(order.size());
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      std::memcpy(buffer + N * static_cast<std::size_t>(k),
+                  pieces.first + pieces.stride * order[static_cast<std::size_t>(k)], N);
+    }
+  });
+  parallel_for(n, node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      std::memcpy(pieces.first + pieces.stride * k, buffer + N * static_cast<std::size_t>(k), N);
+    }
+  });
+}
+
+/// The sizes that fields have; the size is known to the compiler, for it is most of the work.
+void permute_pieces(const Pieces& pieces, std::span<const Index> order, std::byte* buffer) {
+  switch (pieces.bytes) {
+    case 1:
+      return permute_pieces_of<1>(pieces, order, buffer);
+    case 4:
+      return permute_pieces_of<4>(pieces, order, buffer);
+    case 8:
+      return permute_pieces_of<8>(pieces, order, buffer);
+    case 24:
+      return permute_pieces_of<24>(pieces, order, buffer);
+    case 32:
+      return permute_pieces_of<32>(pieces, order, buffer);
+    default:
+      for (std::size_t at = 0; at < pieces.bytes; ++at) {
+        permute_pieces_of<1>({pieces.first + at, pieces.stride, 1}, order, buffer);
+      }
+  }
+}
+
+/// The most bytes of one entry that permute_pieces() takes at once.
+constexpr std::size_t most_bytes = 32;
+
+/// Of a field whose entries lie in blocks of lanes, one component after the other.
+void permute_blocked(const Field& field, Index first, std::span<const Index> order,
+                     std::byte* buffer, std::size_t bytes) {
+  const auto n = static_cast<Index>(order.size());
+  for (int c = 0; c < field.components; ++c) {
+    for (Index k = 0; k < n; ++k) {
+      std::memcpy(buffer + bytes * static_cast<std::size_t>(k),
+                  field.at(first + order[static_cast<std::size_t>(k)], c), bytes);
+    }
+    for (Index k = 0; k < n; ++k) {
+      std::memcpy(field.at(first + k, c), buffer + bytes * static_cast<std::size_t>(k), bytes);
+    }
+  }
+}
+
 /// Permutes entries [first, first + n) of one field by way of `buffer`.
 void permute_field(const Field& field, Index first, std::span<const Index> order,
-                   Array<std::byte>& buffer) {
-  const auto n = static_cast<Index>(order.size());
+                   std::byte* buffer) {
   const auto one = static_cast<std::size_t>(size_of(field.type));
+  if (field.layout.lanes != 1) return permute_blocked(field, first, order, buffer, one);
   const bool joined =
       field.components == 1 || field.layout.component_stride == static_cast<std::ptrdiff_t>(one);
-  const int n_pieces = joined ? 1 : field.components;
-  const std::size_t piece = joined ? one * static_cast<std::size_t>(field.components) : one;
-  const std::size_t entry = piece * static_cast<std::size_t>(n_pieces);
-  buffer.resize(std::max(buffer.size(), entry * order.size()));
-  parallel_for(n, node_chunk, [&](Index begin, Index end) {
-    std::byte* to = buffer.data() + entry * static_cast<std::size_t>(begin);
-    for (Index k = begin; k < end; ++k) {
-      for (int c = 0; c < n_pieces; ++c, to += piece) {
-        std::memcpy(to, field.at(first + order[k], c), piece);
-      }
-    }
-  });
-  parallel_for(n, node_chunk, [&](Index begin, Index end) {
-    const std::byte* from = buffer.data() + entry * static_cast<std::size_t>(begin);
-    for (Index k = begin; k < end; ++k) {
-      for (int c = 0; c < n_pieces; ++c, from += piece) {
-        std::memcpy(field.at(first + k, c), from, piece);
-      }
-    }
-  });
+  if (joined) {
+    const std::size_t bytes = one * static_cast<std::size_t>(field.components);
+    permute_pieces({field.at(first, 0), field.layout.entry_stride, bytes}, order, buffer);
+    return;
+  }
+  for (int c = 0; c < field.components; ++c) {
+    permute_pieces({field.at(first, c), field.layout.entry_stride, one}, order, buffer);
+  }
 }
 
 void permute_index_lists(Scene& scene, std::span<const Index> order) {
@@ -198,10 +249,10 @@ void spatial_order(std::span<const Line> x, double dx, Array<Index>& order) {
 
 void permute_particles(Scene& scene, std::span<const Index> order) {
   assert(static_cast<Index>(order.size()) <= scene.particles.size());
-  Array<std::byte> buffer;
+  const auto buffer = std::make_unique_for_overwrite<std::byte[]>(most_bytes * order.size());
   for (const Field& field : scene.fields) {
     Index first = 0;
-    if (holds_particles(scene, field, first)) permute_field(field, first, order, buffer);
+    if (holds_particles(scene, field, first)) permute_field(field, first, order, buffer.get());
   }
   permute_index_lists(scene, order);
 }

@@ -77,7 +77,7 @@ struct Motion {
         shift(sph.shift.empty() ? nullptr : sph.shift.data()),
         dt_half(half) {}
   /// Displacement of particle k, to the end of the step [m].
-  [[nodiscard]] Vec3 of(Index k) const {
+  [[nodiscard, gnu::always_inline]] inline Vec3 of(Index k) const {
     Vec3 d = xyz(x[k]) - xyz(x_build[k]) + dt_half * xyz(v[k]);
     if (X != nullptr) d += 2 * dt_half * xyz(X[k]);
     if (shift != nullptr) d += 2 * dt_half * xyz(shift[k]);
