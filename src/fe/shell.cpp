@@ -41,6 +41,7 @@ ShellConstants make_constants(const ElasticPlastic& material, const ShellSection
   c.nodal_mass_factor = material.rho * section.thickness / corners_per(section.kind);
   c.thickness = section.thickness;
   c.offset = section.offset;
+  c.smallest_ratio = section.smallest_ratio;
   c.smallest_alpha = section.thickness * section.thickness / 12 + section.offset * section.offset;
   return c;
 }
@@ -230,11 +231,17 @@ ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) 
   ElementWork work;
   block.omega2 = 0;
   block.limiting = -1;
+  block.area_ratio = 1;
+  block.smallest = -1;
   for (const ShellSums& s : block.sums) {
     work.internal += s.internal;
     work.plastic += s.plastic;
     work.hourglass += s.hourglass;
     work.eroded += s.eroded;
+    if (s.area_ratio < block.area_ratio) {
+      block.area_ratio = s.area_ratio;
+      block.smallest = s.smallest;
+    }
     if (s.omega2 <= block.omega2) continue;
     block.omega2 = s.omega2;
     block.limiting = s.element;
@@ -357,6 +364,16 @@ void show_plastic_strain(ShellBlock& block) {
 void show_damage(ShellBlock& block) {
   assert(block.constants.history.damage >= 0);
   show_largest(block, block.constants.history.damage, block.damage_shown);
+}
+
+void erode_collapsed(ShellBlock& block, std::span<const Line> x) {
+  const double limit = block.section.smallest_ratio;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    // What the pass saw halfway is gone by now: the smallest of the pass is taken at its word.
+    const bool seen = block.smallest == e && block.area_ratio <= limit;
+    const double ratio = frame_of(block, e, x).area * block.value(e, block.layout.inverse_area());
+    if (seen || !(ratio > limit)) block.value(e, block.layout.thickness()) = 0;
+  }
 }
 
 Index n_eroded(const ShellBlock& block) {

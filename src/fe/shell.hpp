@@ -28,9 +28,10 @@ struct ShellSection {
   double hourglass_coefficient = 0.03;  ///< r, see shell_element.hpp
   double shear_factor = 5.0 / 6.0;      ///< kappa
   bool thickness_changes = false;
-  bool warping = true;     ///< of the one-point element: fibres, see shell_element.hpp
-  double offset = 0;       ///< of the middle of the shell from its nodes, along the normal [m]
-  double dt_factor = 0.9;  ///< share of the stable step that is voted for
+  bool warping = true;  ///< of the one-point element: fibres, see shell_element.hpp
+  double offset = 0;    ///< of the middle of the shell from its nodes, along the normal [m]
+  double smallest_ratio = 0.01;  ///< A/A0 at which an element has collapsed, > 0
+  double dt_factor = 0.9;        ///< share of the stable step that is voted for
 };
 
 /// The shells of one part. Made by make_shell_block(); the state changes with every pass.
@@ -49,6 +50,8 @@ struct ShellBlock {
   std::vector<ShellSums> sums;  ///< one a chunk, of the last pass
   double omega2 = 0;            ///< of the last pass [1/s^2]
   Index limiting = -1;          ///< the element it belongs to
+  double area_ratio = 1;        ///< smallest A/A0 of the last pass
+  Index smallest = -1;          ///< the element it belongs to
   Array<double> stress_shown;   ///< 6 an element, filled by show_stress() [Pa]
   Array<double> plastic_shown;  ///< largest eps_p over the points [-]
   Array<double> damage_shown;   ///< largest damage over the points [-]
@@ -119,7 +122,11 @@ void show_plastic_strain(ShellBlock& block);
 /// Fills damage_shown from the state. Needs a material that fails.
 void show_damage(ShellBlock& block);
 
-/// How many elements have left the block with their last point failed.
+/// Takes out the elements that have collapsed by the last pass: their thickness is 0 from now on.
+/// x: positions of the nodes [m].
+void erode_collapsed(ShellBlock& block, std::span<const Line> x);
+
+/// How many elements have left the block, collapsed or with their last point failed.
 Index n_eroded(const ShellBlock& block);
 
 /// Stress of point k (0 is the lowest; points of the plane one after the other) of element e in the

@@ -71,6 +71,15 @@ GANNET_INLINE PointOfQuad point_of_quad(const QuadGeometry& g, double xi, double
   return p;
 }
 
+/// Four times the smallest determinant of the map at the points: the area that they make of it.
+GANNET_INLINE Vec8 smallest_area(const QuadGeometry& g) {
+  // J is linear: (xi x eta + xi_p (xi x h) + eta_p (h x eta))/16.
+  const Vec8 along = g.xi.x * g.hy - g.xi.y * g.hx;
+  const Vec8 across = g.hx * g.eta.y - g.hy * g.eta.x;
+  const Vec8 sizes = max(along, -along) + max(across, -across);
+  return Vec8(0.25) * (g.xi.x * g.eta.y - g.xi.y * g.eta.x - Vec8(gauss) * sizes);
+}
+
 /// Sides 1-2, 4-3 (along xi) and 1-4, 2-3 (along eta).
 constexpr int side_from[4] = {0, 3, 0, 1};
 constexpr int side_to[4] = {1, 2, 3, 2};
@@ -268,11 +277,20 @@ template <PointLaw law>
 GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, ShellLaneSums& sums) {
   const ShellConstants& c = *pass.constants;
   const BlockState state = block_state(pass, number);
-  const CornersOf<4> corners = gather_all<4>(pass, number);
+  CornersOf<4> corners = gather_all<4>(pass, number);
   const Vec8 nu(c.law.c12 / c.law.c11);
   Vec8 t = Vec8::load(state.thickness);
 
-  const QuadGeometry half = quad_geometry(corners.middle);
+  QuadGeometry half = quad_geometry(corners.middle);
+  QuadGeometry now = quad_geometry(corners.x);
+  const auto goes_on = sums.shrunk_to(
+      min(smallest_area(half), smallest_area(now)) * state.inverse_A0, c.smallest_ratio, t, number);
+  if (leaves_out(goes_on)) {
+    make_harmless(corners, goes_on);
+    t = select(goes_on, t, Vec8(0.0));
+    half = quad_geometry(corners.middle);
+    now = quad_geometry(corners.x);
+  }
   const Leaning<4> old = load_leaning<4>(state.fibres);
   const Vec8 dt(pass.dt);
   const Leaning<4> middle =
@@ -280,7 +298,6 @@ GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, Shell
   const Relative<4> motion = relative_motion<4>(half, middle, corners.v, corners.w, dt);
   const QuadFields fields = quad_fields(half, middle, motion);
   follow_leaning<4>(old, motion, state.fibres);
-  const QuadGeometry now = quad_geometry(corners.x);
   QuadForces forces;
   Vec8 growth(0.0);
   Vec8 least_damage(1.0);
@@ -402,10 +419,19 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
                                    ShellLaneSums& sums) {
   const ShellConstants& c = *pass.constants;
   const BlockState state = block_state(pass, number);
-  const CornersOf<3> corners = gather_all<3>(pass, number);
+  CornersOf<3> corners = gather_all<3>(pass, number);
   Vec8 t = Vec8::load(state.thickness);
 
-  const FlatGeometry<3> half = triangle_geometry(corners.middle);
+  FlatGeometry<3> half = triangle_geometry(corners.middle);
+  FlatGeometry<3> now = triangle_geometry(corners.x);
+  const auto goes_on =
+      sums.shrunk_to(min(half.area, now.area) * state.inverse_A0, c.smallest_ratio, t, number);
+  if (leaves_out(goes_on)) {
+    make_harmless(corners, goes_on);
+    t = select(goes_on, t, Vec8(0.0));
+    half = triangle_geometry(corners.middle);
+    now = triangle_geometry(corners.x);
+  }
   const Leaning<3> old = load_leaning<3>(state.fibres);
   const Vec8 dt(pass.dt);
   const Leaning<3> middle =
@@ -445,7 +471,6 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
   if constexpr (law == PointLaw::general) t = left_of(t, column.least_damage, state.thickness);
   if (c.thickness_changes) grown(t, column.growth).store(state.thickness);
 
-  const FlatGeometry<3> now = triangle_geometry(corners.x);
   const Leaning<3> leaning = load_leaning<3>(state.fibres);
   Relative<3> forces{};
   for (int a = 0; a < 3; ++a) {

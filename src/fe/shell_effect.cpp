@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/error.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
 #include "fe/shell.hpp"
@@ -58,6 +59,15 @@ std::vector<Key> shell_keys() {
        .kind = Kind::flag,
        .text = "the thickness follows the stretching of the shell",
        .fallback = "no"},
+      {.name = "collapse",
+       .kind = Kind::choice,
+       .text = "what happens where an element has shrunk to nothing or turned inside out",
+       .fallback = "stop",
+       .choices = {"stop", "erode"}},
+      {.name = "collapse_ratio",
+       .text = "area over area at the start at which an element has collapsed",
+       .fallback = "0.01",
+       .limits = {.lowest = 0, .highest = 1, .lowest_open = true, .highest_open = true}},
       {.name = "offset",
        .unit = dim::length,
        .text = "distance of the middle of the shell from its nodes, along the normals",
@@ -117,6 +127,7 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
         hourglass.number_or("coefficient", section.hourglass_coefficient);
   }
   section.offset = shell.number_or("offset", 0);
+  section.smallest_ratio = shell.number_or("collapse_ratio", section.smallest_ratio);
   section.thickness_changes = shell.has("thickness_change") && shell.flag("thickness_change");
   section.warping = !shell.has("warping") || shell.flag("warping");
   section.dt_factor = shell.number_or("dt_factor", section.dt_factor);
@@ -127,6 +138,7 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
 struct ShellPart {
   std::string name;
   int part = -1;
+  bool erodes = false;  ///< elements that have collapsed leave; else they stop the run
   std::vector<ShellBlock*> blocks;
   Array<double> thickness, stress, plastic, damage;
   std::vector<std::uint8_t> gone;  ///< per cell whether it has left; empty where none can
@@ -180,6 +192,14 @@ void track_section_forces(Scene& scene, ShellPart& part) {
   add(".shear_force", "N/m", "ShearForce", part.shear_force, 12, 3);
 }
 
+void count_eroded(Scene& scene, const ShellPart& part) {
+  scene.measures.push_back(
+      {"shell." + part.name + ".eroded", "", {"value"}, [&part](double* n_out) {
+         *n_out = 0;
+         for (const ShellBlock* block : part.blocks) *n_out += n_eroded(*block);
+       }});
+}
+
 /// The whole states for checkpoints; for output, what is derived from them when it is asked for.
 void track(Scene& scene, ShellPart& part, bool section_forces) {
   for (ShellBlock* block : part.blocks) {
@@ -204,6 +224,7 @@ void track(Scene& scene, ShellPart& part, bool section_forces) {
               show_by_cell(block, block.stress_shown, 6, 0, 6, part.stress);
             });
   if (section_forces) track_section_forces(scene, part);
+  if (part.erodes || part.blocks.front()->material.failure.given()) count_eroded(scene, part);
   if (!part.blocks.front()->material.plastic()) return;
   add_shown(scene, part, ".plastic_strain", "", "PlasticStrain", part.plastic, 1,
             [&part](ShellBlock& block) {
@@ -215,11 +236,6 @@ void track(Scene& scene, ShellPart& part, bool section_forces) {
     show_damage(block);
     show_by_cell(block, block.damage_shown, 1, 0, 1, part.damage);
   });
-  scene.measures.push_back(
-      {"shell." + part.name + ".eroded", "", {"value"}, [&part](double* n_out) {
-         *n_out = 0;
-         for (const ShellBlock* block : part.blocks) *n_out += n_eroded(*block);
-       }});
 }
 
 /// The cells of one kind out of those of a part: quadrilaterals, or triangles, which repeat their
@@ -274,6 +290,7 @@ void state(const Keys& root, Scene& scene) {
     ShellPart& shell = scene.store.get<ShellParts>().list.emplace_back();
     shell.name = part.name;
     shell.part = number;
+    shell.erodes = given.has("collapse") && given.word("collapse") == "erode";
     try {
       make_blocks(scene, material, section, shell);
     } catch (const std::invalid_argument& e) {
@@ -284,7 +301,8 @@ void state(const Keys& root, Scene& scene) {
     track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
-    if (material.failure.given()) shell.gone.assign(static_cast<std::size_t>(part.n_cells()), 0);
+    if (shell.erodes || material.failure.given())
+      shell.gone.assign(static_cast<std::size_t>(part.n_cells()), 0);
     surfaces[static_cast<std::size_t>(number)] = {section.thickness, material.E,
                                                   shell.gone.empty() ? nullptr : &shell.gone};
   }
@@ -325,10 +343,27 @@ void mark_gone(ShellPart& part) {
   }
 }
 
-ElementWork pass_over_part(ShellPart& part, Nodes& nodes, double dt_old) {
+/// Stops the run at an element that has collapsed, with its name.
+[[noreturn]] void stop_at_collapsed(const Scene& scene, const ShellBlock& block, const Step& step) {
+  throw RunError(RunFailure{
+      fmt::format("an element has collapsed: its area is {:.3g} of that at the start",
+                  block.area_ratio),
+      text_of_element(scene, block.part, block.cell(block.smallest)),
+      fmt::format("at t = {:.6g} s, step {}; the limit is parts.{}.shell.collapse_ratio = {:g}",
+                  step.t, step.n, block.name, block.section.smallest_ratio),
+      "let such elements go (collapse: erode), take a finer mesh where it is crushed, or look for "
+      "a "
+      "load or contact that is too stiff"});
+}
+
+ElementWork pass_over_part(ShellPart& part, Scene& scene, const Step& step) {
   ElementWork sum;
   for (ShellBlock* block : part.blocks) {
-    const ElementWork work = shell_pass(*block, nodes, dt_old);
+    const ElementWork work = shell_pass(*block, scene.nodes, step.dt_old);
+    if (block->area_ratio <= block->section.smallest_ratio) {
+      if (!part.erodes) stop_at_collapsed(scene, *block, step);
+      erode_collapsed(*block, scene.nodes.x);
+    }
     sum.internal += work.internal;
     sum.plastic += work.plastic;
     sum.hourglass += work.hourglass;
@@ -363,9 +398,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .plastic = first.material.plastic(),
                      .hourglass = first.section.kind == ShellKind::one_point,
                      .eroded = first.material.failure.given()};
-    part.pass = [&scene, &shell](const Step& step) {
-      return pass_over_part(shell, scene.nodes, step.dt_old);
-    };
+    part.pass = [&scene, &shell](const Step& step) { return pass_over_part(shell, scene, step); };
     part.stable_dt = [&shell] { return stable_step(stiffest(shell)); };
     part.limiting = [&shell] {
       const ShellBlock& block = stiffest(shell);

@@ -40,6 +40,7 @@ struct ShellConstants {
   double nodal_mass_factor = 0;   ///< rho t0 / corners [kg/m^2]: nodal mass = factor * A0
   double thickness = 0;           ///< t0 [m]
   double offset = 0;              ///< height of the middle of the shell over its nodes [m]
+  double smallest_ratio = 0.01;   ///< A/A0 at which an element has collapsed: it exerts nothing
   double smallest_alpha = 0;      ///< t0^2/12 + offset^2 [m^2]
 };
 
@@ -90,6 +91,9 @@ struct ShellSums {
   double eroded = 0;          ///< [J], left with points that failed
   double omega2 = 0;          ///< largest bound of an element's squared frequency [1/s^2]
   std::int32_t element = -1;  ///< whose it is: 8 block + lane
+  /// Smallest A/A0, at n and halfway to it (quadrilaterals with four points: of their parts)
+  double area_ratio = 1;
+  std::int32_t smallest = -1;  ///< whose it is
 };
 
 /// One fused pass over blocks [begin, end): strain increment from v(n-1/2) in the midpoint

@@ -25,11 +25,21 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
   const Vec8x3* v = corners.v;
   Vec8x3* w = corners.w;
 
-  const ShellGeometry half = shell_geometry(corners.middle);
+  Vec8 t = Vec8::load(state + 8 * layout.thickness());
+  ShellGeometry half = shell_geometry(corners.middle);
+  ShellGeometry now = shell_geometry(x);
+  const auto goes_on =
+      sums.shrunk_to(min(half.area, now.area) * Vec8::load(state + 8 * layout.inverse_area()),
+                     c.smallest_ratio, t, block);
+  if (leaves_out(goes_on)) {
+    make_harmless(corners, goes_on);
+    t = select(goes_on, t, Vec8(0.0));
+    half = shell_geometry(corners.middle);
+    now = shell_geometry(x);
+  }
   double* fibres = layout.has_fibres ? state + 8 * layout.fibres() : nullptr;
   if (fibres != nullptr) follow_fibres(half, v, w, fibres, Vec8(pass.dt));
   const ShellIncrements d = shell_increments(half, v, w, Vec8(pass.dt));
-  Vec8 t = Vec8::load(state + 8 * layout.thickness());
   ShellResultants r;
   HourglassStiffness K;
   ColumnStress column;
@@ -47,7 +57,6 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
   if constexpr (law == PointLaw::general) sums.eroded += column.work.eroded * half.area;
   if (c.thickness_changes) grown(t, column.growth).store(state + 8 * layout.thickness());
 
-  const ShellGeometry now = shell_geometry(x);
   Vec8x3 f[4];
   Vec8x3 m[4];
   shell_corner_forces(now, r, f, m);

@@ -38,6 +38,25 @@ GANNET_INLINE void scatter_all(const ShellPass& pass, std::int32_t block, const 
   for (int a = 0; a < N; ++a) scatter_corner(pass.torque, corners, a, m[a]);
 }
 
+/// Puts the corners of elements that have collapsed where nothing about them is singular, at rest;
+/// without thickness they then exert nothing and change nothing.
+template <int N>
+GANNET_INLINE void make_harmless(CornersOf<N>& c, Mask8 goes_on) {
+  const Vec8 zero(0.0);
+  for (int a = 0; a < N; ++a) {
+    const Vec8 x(a == 1 || (N == 4 && a == 2) ? 1.0 : 0.0);
+    const Vec8 y(a >= 2 ? 1.0 : 0.0);
+    const auto put = [&](Vec8x3& line, Vec8 there_x, Vec8 there_y) {
+      line = {select(goes_on, line.x, there_x), select(goes_on, line.y, there_y),
+              select(goes_on, line.z, zero)};
+    };
+    put(c.x[a], x, y);
+    put(c.middle[a], x, y);
+    put(c.v[a], zero, zero);
+    put(c.w[a], zero, zero);
+  }
+}
+
 /// Sums over elements, kept by lane until the end of a chunk.
 struct ShellLaneSums {
   Vec8 internal = Vec8(0.0);
@@ -46,6 +65,17 @@ struct ShellLaneSums {
   Vec8 eroded = Vec8(0.0);
   Vec8 omega2 = Vec8(0.0);
   Vec8 block = Vec8(-1.0);
+  Vec8 area_ratio = Vec8(1.0);
+  Vec8 smallest = Vec8(-1.0);
+  /// Takes note of areas over those at the start, of elements with a thickness, and says which have
+  /// not collapsed. A ratio that is no number counts as 0.
+  GANNET_INLINE Mask8 shrunk_to(Vec8 ratio, double limit, Vec8 thickness, std::int32_t number) {
+    const Vec8 counts = select(less(Vec8(0.0), thickness), max(ratio, Vec8(0.0)), Vec8(1.0));
+    const auto smaller = less(counts, area_ratio);
+    area_ratio = select(smaller, counts, area_ratio);
+    smallest = select(smaller, Vec8(static_cast<double>(number)), smallest);
+    return less(Vec8(limit), ratio);
+  }
   /// Takes note of the bounds of a block [1/s^2].
   GANNET_INLINE void vote(Vec8 bound, std::int32_t number) {
     const auto larger = less(omega2, bound);
@@ -53,6 +83,11 @@ struct ShellLaneSums {
     block = select(larger, Vec8(static_cast<double>(number)), block);
   }
 };
+
+/// Whether a mask leaves any lane out.
+GANNET_INLINE bool leaves_out(Mask8 goes_on) {
+  return any(less(Vec8(0.5), select(goes_on, Vec8(0.0), Vec8(1.0))));
+}
 
 /// The thickness follows the strain increment: t (1 + e/2)/(1 - e/2), t exp(e) to second order.
 GANNET_INLINE Vec8 grown(Vec8 t, Vec8 strain) {
@@ -98,11 +133,21 @@ GANNET_INLINE void over_blocks(const ShellPass& pass, std::int32_t begin, std::i
   out.eroded = sum(sums.eroded);
   alignas(64) double omega2[8];
   alignas(64) double index[8];
+  alignas(64) double ratio[8];
+  alignas(64) double smallest[8];
   sums.omega2.store(omega2);
   sums.block.store(index);
+  sums.area_ratio.store(ratio);
+  sums.smallest.store(smallest);
   out.omega2 = 0;
   out.element = -1;
+  out.area_ratio = 1;
+  out.smallest = -1;
   for (int lane = 0; lane < 8; ++lane) {
+    if (ratio[lane] < out.area_ratio) {
+      out.area_ratio = ratio[lane];
+      out.smallest = 8 * static_cast<std::int32_t>(smallest[lane]) + lane;
+    }
     if (omega2[lane] <= out.omega2) continue;
     out.omega2 = omega2[lane];
     out.element = 8 * static_cast<std::int32_t>(index[lane]) + lane;
