@@ -104,8 +104,8 @@ Index n_eroded(const SolidBlock& block);
 /// Stress of a point of element e: xx, yy, zz, xy, yz, zx [Pa].
 Symmetric<double> stress_at(const SolidBlock& block, Index e, int point = 0);
 
-/// Fills stress_shown and, where the material yields or fails, plastic_shown and damage_shown from
-/// the state.
+/// Fills stress_shown (0 of elements that have left) and, where the material yields or fails,
+/// plastic_shown and damage_shown from the state.
 void show_state(SolidBlock& block);
 
 }  // namespace gannet

@@ -170,7 +170,14 @@ TEST_CASE("physics: a solid that is crushed stops the run, or leaves, and nothin
                     Catch::Contains("an element has collapsed") && Catch::Contains("element"));
   const auto erodes = make_simulation_of_text(crushed("erode"));
   run_until(*erodes, 4e-3, [] {});
-  CHECK(erodes->scene.store.get<SolidBlocks>().list.front().n_eroded > 0);
+  SolidBlock& block = erodes->scene.store.get<SolidBlocks>().list.front();
+  CHECK(block.n_eroded > 0);
+  CHECK(n_eroded(block) == block.n_eroded);
+  show_state(block);
+  for (Index e = 0; e < block.n_elements; ++e) {
+    if (block.value(e, block.layout.inverse_volume()) > 0) continue;
+    for (std::size_t k = 0; k < 6; ++k) CHECK(block.stress_shown[6 * e + k] == 0);
+  }
   for (const Line& x : erodes->scene.nodes.x) CHECK(xyz(x).allFinite());
 }
 
