@@ -37,6 +37,7 @@ std::vector<Effect> make_table() {
       sponge_effect(),      // after the free kick, before motions that are given
       relaxation_effect(),  // likewise
       element_relaxation_effect(),
+      part_damping_effect(),
       planes_effect(),         //
       plane_motion_effect(),   // before lists are made: planes are where they are by then
       wall_pressure_effect(),  // what the force pass of the particles reads

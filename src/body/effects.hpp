@@ -38,6 +38,9 @@ Effect relaxation_effect();
 /// does.
 Effect element_relaxation_effect();
 
+/// parts.NAME.damping: in proportion to mass, of one part of elements. Stands where `sponge` does.
+Effect part_damping_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 

@@ -156,3 +156,36 @@ TEST_CASE("relaxation: what it takes stands in the ledger; later it takes nothin
   CHECK(world->scene.nodes.v[0].x == v);
   CHECK(entry(*world, "relaxation") == taken);
 }
+
+TEST_CASE("damping of a part: velocities decay as exp(-gamma t), order 2, and stand in the ledger",
+          "[body]") {
+  double error[2];
+  for (const int r : {0, 1}) {
+    Draft draft;
+    draft.parts = {test::plate("panel", 2, 1, 1, 1, true), test::plate("other", 1, 1, 1, 1)};
+    for (PartDraft& part : draft.parts) part.velocity = Vec3(0.1, 0, 0.2);
+    auto world = make_world("parts: {panel: {made: yes, damping: 10 1/s}, other: {made: yes}}",
+                            draft, {part_damping_effect()});
+    Nodes& nodes = world->scene.nodes;
+    for (Index i = nodes.rotating.begin; i < nodes.rotating.end; ++i) nodes.omega[i].y = 3;
+    world->dt = r == 0 ? 1e-2 : 5e-3;
+    world->take_steps(r == 0 ? 20 : 40);
+    const double left = std::exp(-10 * (world->time() - 0.5 * world->dt));
+    error[r] = std::abs(nodes.v[0].z - 0.2 * left);
+    CHECK(nodes.v[6].z == 0.2);  // of the other part
+    CHECK(nodes.omega[0].y / 3 == Approx(nodes.v[0].z / 0.2).epsilon(1e-12));
+    // Six nodes of 2 kg and 0.5 kg m^2; the half step between kinetic energy and work is left.
+    const double start = 6 * (0.5 * 2 * 0.05 + 0.5 * 0.5 * 9);
+    CHECK(entry(*world, "damping") ==
+          Approx(start * (1 - left * left)).epsilon(r == 0 ? 2e-2 : 1e-2));
+    CHECK(entry(*world, "damping") + entry(*world, "kinetic") - 4 * 0.05 ==
+          Approx(start).epsilon(1e-2));
+  }
+  CHECK(error[0] / error[1] == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("damping of a part: not of particles", "[body]") {
+  const auto world = make_world("parts: {pool: {made: yes, damping: 10 1/s}}",
+                                two_particles({1, 0, 0}), {part_damping_effect()});
+  CHECK(test::mistakes_of(*world).find("is for parts of elements") != std::string::npos);
+}
