@@ -16,11 +16,14 @@ constexpr Index chunk = 1024;
 double pressure_of(const PressureLoad& load, const Scene& scene, const Part& part, std::size_t cell,
                    double t) {
   const auto n = static_cast<std::size_t>(nodes_per(part.cell));
+  const Index* corner = &part.connectivity[cell * n];
+  // A triangle among quadrilaterals has its last corner twice.
+  const std::size_t m = corner[n - 1] == corner[n - 2] ? n - 1 : n;
   Vec3 centre = Vec3::Zero();
-  for (std::size_t a = 0; a < n; ++a) {
-    centre += xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[cell * n + a])]);
+  for (std::size_t a = 0; a < m; ++a) {
+    centre += xyz(scene.nodes.x[static_cast<std::size_t>(corner[a])]);
   }
-  return load.side * value_at(load.pressure, t, centre / static_cast<double>(n));
+  return load.side * value_at(load.pressure, t, centre / static_cast<double>(m));
 }
 
 void push_cells(PressureLoad& load, const Scene& scene, double t) {

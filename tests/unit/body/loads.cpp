@@ -89,6 +89,22 @@ TEST_CASE("pressure: pushes on no cell that has left", "[body]") {
   CHECK(sum.norm() == Approx(1000 * 2.0 / 3));  // of a plate of one square metre
 }
 
+TEST_CASE("pressure: one that changes with place is that at the middle of a triangle", "[body]") {
+  Draft draft;
+  PartDraft& panel = draft.parts.emplace_back();
+  panel.name = "panel";
+  panel.kind = "shell";
+  panel.cell = Cell::quad;
+  panel.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  panel.connectivity = {0, 1, 2, 2};
+  auto world = make_world(
+      "parts: {panel: {made: yes}}\nloads: {load: {pressure: {on: panel, value: "
+      "\"900*y\", side: back}}}\n",
+      draft, {pressure_effect()});
+  world->take_steps(1);
+  CHECK((total_force(world->scene) - Vec3(0, 0, 150)).norm() < 1e-11);
+}
+
 TEST_CASE("pressure: follows the surface as it turns", "[body]") {
   auto world = plate_world("{pressure: {on: panel, value: 2 Pa, side: back}}");
   for (Line& x : world->scene.nodes.x) x = {0, x.x, x.y, x.w};  // z along x now
