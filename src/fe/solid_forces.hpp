@@ -247,7 +247,8 @@ GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& 
 /// corner (n = 8; a tetrahedron's 4). With G the Gram matrix, (tr d)^2 <= tr G |v|^2 and d : d <=
 /// largest(G) |v|^2, so
 ///   omega^2 <= n/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + n largest(G) sum |g|^2/V^2),
-/// exact for a cube (3 K) and for a flat element (lambda + 2 mu).
+/// exact for a cube (3 K) and for a flat element (lambda + 2 mu). Where lambda is below 0 a motion
+/// without dilatation is the stiffest: it counts as 0.
 GANNET_INLINE Vec8 solid_omega2(SolidShape shape, Vec8 lambda, Vec8 two_mu, const GramBound& gram,
                                 const SolidModes& x, Vec8 inverse_volume, Vec8 inverse_mass,
                                 Vec8 k_h) {
@@ -257,7 +258,8 @@ GANNET_INLINE Vec8 solid_omega2(SolidShape shape, Vec8 lambda, Vec8 two_mu, cons
   const Vec8 hourglass =
       k_h * (Vec8(1.0) + n * gram.largest * g2 * inverse_volume * inverse_volume);
   return inverse_mass *
-         (n * inverse_volume * (lambda * gram.trace + two_mu * gram.largest) + hourglass);
+         (n * inverse_volume * (max(lambda, Vec8(0.0)) * gram.trace + two_mu * gram.largest) +
+          hourglass);
 }
 
 }  // namespace gannet::GANNET_ISA_NS
