@@ -300,7 +300,10 @@ void show_stress(ShellBlock& block, std::span<const Line> x) {
   block.stress_shown.resize(6 * static_cast<std::size_t>(block.n_elements));
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
-      write_global(frame_of(block, e, x).axes, middle_stress(block, e),
+      // Who has left goes on being strained by corners that others move, and stands for nothing.
+      const bool there = block.value(e, block.layout.thickness()) > 0;
+      const Mat3 stress = there ? middle_stress(block, e) : Mat3::Zero();
+      write_global(frame_of(block, e, x).axes, stress,
                    &block.stress_shown[6 * static_cast<std::size_t>(e)]);
     }
   });
@@ -341,12 +344,17 @@ void show_section_forces(ShellBlock& block, std::span<const Line> x) {
 
 namespace {
 
-/// The largest of number j of the history of an element's points.
-void show_largest(const ShellBlock& block, int j, Array<double>& shown) {
+/// The largest of number j of the history of the points of each element that is there; `gone` of
+/// those that have left.
+void show_largest(const ShellBlock& block, int j, double gone, Array<double>& shown) {
   shown.assign(static_cast<std::size_t>(block.n_elements), 0);
   parallel_for(block.n_elements, node_chunk, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {
       double& largest = shown[static_cast<std::size_t>(e)];
+      if (!(block.value(e, block.layout.thickness()) > 0)) {
+        largest = gone;
+        continue;
+      }
       for (int k = 0; k < block.layout.in_plane() * block.layout.n_points; ++k) {
         largest = std::max(largest, block.value(e, block.layout.per_point * k + 3 + j));
       }
@@ -358,12 +366,12 @@ void show_largest(const ShellBlock& block, int j, Array<double>& shown) {
 
 void show_plastic_strain(ShellBlock& block) {
   assert(block.material.plastic());
-  show_largest(block, 0, block.plastic_shown);
+  show_largest(block, 0, 0, block.plastic_shown);
 }
 
 void show_damage(ShellBlock& block) {
   assert(block.constants.history.damage >= 0);
-  show_largest(block, block.constants.history.damage, block.damage_shown);
+  show_largest(block, block.constants.history.damage, 1, block.damage_shown);
 }
 
 void erode_collapsed(ShellBlock& block, std::span<const Line> x) {

@@ -258,7 +258,7 @@ void show_state(SolidBlock& block) {
         if (!block.layout.plastic()) continue;
         const int first = block.layout.plastic_strain(point);
         double& eps_p = block.plastic_shown[static_cast<std::size_t>(e)];
-        eps_p = std::max(eps_p, block.value(e, first));
+        if (there) eps_p = std::max(eps_p, block.value(e, first));
         if (damage < 0) continue;
         double& worst = block.damage_shown[static_cast<std::size_t>(e)];
         worst = std::max(worst, block.value(e, first + damage));

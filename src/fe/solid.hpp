@@ -51,7 +51,6 @@ struct SolidBlock {
   double volume_ratio = 1;      ///< smallest V/V0 of the last pass
   Index smallest = -1;          ///< the element it belongs to; -1 where none has shrunk
   bool erodes = false;          ///< collapsed elements leave; else they stop the run
-  Index n_eroded = 0;           ///< so far
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
     return state[static_cast<std::size_t>((e / lanes * layout.n_values() + k) * lanes + e % lanes)];

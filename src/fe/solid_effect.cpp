@@ -234,7 +234,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
       const ElementWork work = solid_pass(block, scene.nodes, step.dt_old);
       if (block.volume_ratio <= block.section.smallest_ratio) {
         if (!block.erodes) stop_at_collapsed(scene, block, step);
-        block.n_eroded += erode_collapsed(block, scene.nodes.x);
+        erode_collapsed(block, scene.nodes.x);
       }
       return work;
     };

@@ -57,10 +57,11 @@ GANNET_INLINE void note_extremes(Vec8 omega2, Vec8 volume_ratio, std::int32_t bl
   sums.smallest = select(smaller, here, sums.smallest);
 }
 
-/// What an element that has collapsed held may not be finite: it is cleared.
+/// What an element that has collapsed held may not be finite: stress, history and forces are
+/// cleared.
 template <class Mask>
 GANNET_INLINE void forget_collapsed(const SolidLayout& layout, Mask alive, double* state) {
-  for (int k = 0; k < layout.n_values(); ++k) {
+  for (int k = 0; k < layout.start(); ++k) {
     if (k == layout.inverse_volume()) continue;
     double* p = state + 8 * k;
     select(alive, Vec8::load(p), Vec8(0.0)).store(p);

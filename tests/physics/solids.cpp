@@ -171,8 +171,7 @@ TEST_CASE("physics: a solid that is crushed stops the run, or leaves, and nothin
   const auto erodes = make_simulation_of_text(crushed("erode"));
   run_until(*erodes, 4e-3, [] {});
   SolidBlock& block = erodes->scene.store.get<SolidBlocks>().list.front();
-  CHECK(block.n_eroded > 0);
-  CHECK(n_eroded(block) == block.n_eroded);
+  CHECK(n_eroded(block) > 0);
   show_state(block);
   for (Index e = 0; e < block.n_elements; ++e) {
     if (block.value(e, block.layout.inverse_volume()) > 0) continue;
