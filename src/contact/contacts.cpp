@@ -188,12 +188,23 @@ T entry_of(const std::vector<T>& of_part, int part) {
   return p < of_part.size() ? of_part[p] : T{};
 }
 
+/// Contact stands off from the nodes, wherever the middle of the shell lies.
+void warn_of_offset(Scene& scene, const Keys& keys, int part, double offset) {
+  if (offset == 0) return;
+  const std::string& name = scene.parts[static_cast<std::size_t>(part)].name;
+  scene.warnings.push_back(fmt::format(
+      "{}: {} keeps its distance from the nodes of '{}', and the middle of that shell lies {:g} m "
+      "beside them (offset); say what you want by 'thickness'",
+      keys.where().text(), keys.path(), name, offset));
+}
+
 /// Distances and law of a contact from what its two parts are made of.
 void set_law(Scene& scene, const Keys& keys, NodeToSegment& c) {
   const auto water = entry_of(scene.store.get<ParticleMaterials>().of_part, c.particle_part);
   const auto shell = entry_of(scene.store.get<SurfaceData>().of_part, c.surface_part);
   assert(water.spacing > 0 && water.c0 > 0 && shell.thickness > 0 && shell.young > 0);
   const double d = keys.number_or("thickness", 0.5 * (shell.thickness + water.spacing));
+  if (!keys.has("thickness")) warn_of_offset(scene, keys, c.surface_part, shell.offset);
   c.range = GapRange::of(d);
   c.surface.gone = shell.gone;
   const double rate = water.c0 / water.spacing;
@@ -206,6 +217,7 @@ void set_law(Scene& scene, const Keys& keys, NodeToSegment& c) {
 void add_nodes_on_planes(const Keys& keys, NodesOnPlanes& c, Scene& scene, Models& models) {
   const auto shell = entry_of(scene.store.get<SurfaceData>().of_part, c.part);
   c.law.distance = keys.number_or("thickness", 0.5 * shell.thickness);
+  if (!keys.has("thickness")) warn_of_offset(scene, keys, c.part, shell.offset);
   c.law.fixed = keys.number("stiffness") * share_of_membrane * shell.young * shell.thickness;
   double rate2 = 0;
   const Range nodes = scene.parts[static_cast<std::size_t>(c.part)].nodes;

@@ -11,6 +11,7 @@ namespace gannet {
 struct ShellSurface {
   double thickness = 0;  ///< of the shell at the start [m]
   double young = 0;      ///< Young's modulus [Pa]
+  double offset = 0;     ///< of the middle of the shell from its nodes, along their normals [m]
   /// For each cell of the part whether it has left; nullptr where none can. Up to date in the force
   /// stage once the elements have been passed over.
   const std::vector<std::uint8_t>* gone = nullptr;
