@@ -28,8 +28,9 @@ Schema schema() {
        .required = true,
        .limits = positive()},
       {.name = "motion",
-       .text = "ends it before: kinetic energy over its largest so far, where it stays below for a "
-               "few times 1/rate",
+       .text =
+           "ends it before: kinetic energy over its largest so far, where it stays below for the "
+           "time 1/rate",
        .limits = {0, 1, true, true}},
       {.name = "rate",
        .unit = dim::frequency,

@@ -50,7 +50,7 @@ J2Law j2_law(const ElasticPlastic& material) {
     add_bend(e[k], next - slope);
     slope = next;
   }
-  add_bend(0, (1 - material.kinematic_fraction) * material.H);
+  if (n == 0) add_bend(0, (1 - material.kinematic_fraction) * material.H);
   law.kinematic = material.kinematic_fraction * material.H;
   law.power_factor = material.power_factor;
   law.power = material.power;
@@ -292,8 +292,13 @@ void read_johnson_cook(const Keys& material, ElasticPlastic& solid) {
   solid.rate_power = jc.number_or("C", 0);
   solid.rate = jc.number_or("rate0", 1);
   if (solid.rate_power > 0) solid.rate_law = RateLaw::johnson_cook;
+  if (jc.given("rate0") && !(solid.rate_power > 0)) {
+    jc.complain("rate0", "has no meaning without C");
+  }
   if (!jc.has("specific_heat")) {
-    if (jc.has("melting")) jc.complain("melting", "has no meaning without specific_heat");
+    for (const char* key : {"melting", "m", "room", "heat_fraction"}) {
+      if (jc.given(key)) jc.complain(key, "has no meaning without specific_heat");
+    }
     return;
   }
   solid.heating.specific_heat = jc.number("specific_heat");
@@ -345,8 +350,9 @@ void read_rubber(const Keys& material, const char* name, ElasticPlastic& solid) 
   solid.E = 9 * law.bulk * mu / (3 * law.bulk + mu);
   solid.nu = (3 * law.bulk - 2 * mu) / (2 * (3 * law.bulk + mu));
   for (const char* key :
-       {"young", "poisson", "yield_stress", "hardening_curve", "johnson_cook", "failure"}) {
-    if (material.has(key)) material.complain(key, std::string("has no meaning beside ") + name);
+       {"young", "poisson", "yield_stress", "hardening_modulus", "kinematic_fraction",
+        "hardening_curve", "johnson_cook", "cowper_symonds", "failure"}) {
+    if (material.given(key)) material.complain(key, std::string("has no meaning beside ") + name);
   }
 }
 
@@ -368,6 +374,10 @@ void check_company(const Keys& material, const ElasticPlastic& solid) {
     if (material.has(key) && !material.has("yield_stress")) {
       material.complain(key, "has no meaning without yield_stress");
     }
+  }
+  if (material.given("kinematic_fraction") && material.has("yield_stress") &&
+      !material.has("hardening_modulus")) {
+    material.complain("kinematic_fraction", "has no meaning without hardening_modulus");
   }
   for (const char* key : {"cowper_symonds", "failure"}) {
     if (material.has(key) && !solid.plastic()) {

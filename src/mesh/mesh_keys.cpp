@@ -102,6 +102,13 @@ SurfaceMesh file_surface(const Keys& keys) {
 VolumeMesh file_volume(const Keys& keys, int dimension) {
   if (dimension == 2) {
     SurfaceMesh surface = file_surface(keys);
+    for (std::size_t c = 0; c < surface.quads.size(); c += 4) {
+      if (surface.quads[c + 2] != surface.quads[c + 3]) continue;
+      keys.complain("file",
+                    "holds triangles; solids of a plane case are quadrilaterals (gmsh: "
+                    "Recombine)");
+      return {};
+    }
     return {std::move(surface.points), std::move(surface.quads), 4};
   }
   if (!keys.has("file")) return {};

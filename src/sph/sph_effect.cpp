@@ -126,6 +126,7 @@ void add_parts(const Keys& root, Draft& draft) {
   require_same(parts);
   for (const Keys& part : parts) {
     const Keys sph = part.map("sph");
+    if (part.has("map")) part.complain("map", "moves the points of elements, not those of a fill");
     if (!part.has("fill")) {
       part.complain("fill", "missing; particles need a region to fill: fill: {box: {from, to}}");
       continue;

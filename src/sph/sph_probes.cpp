@@ -177,8 +177,9 @@ bool add_pressure_on_wall(const Keys& gauge, Measure& measure, Scene& scene) {
 void add_pressure_on(const Keys& gauge, Measure measure, Scene& scene) {
   if (add_pressure_on_wall(gauge, measure, scene)) return;
   const int part = scene.part_number(gauge.word("on"));
+  const bool shells = part >= 0 && scene.parts[static_cast<std::size_t>(part)].kind == "shell";
   const SurfacePoint point =
-      part < 0 ? SurfacePoint{} : nearest_on_part(scene, part, gauge.vector("at"));
+      shells ? nearest_on_part(scene, part, gauge.vector("at")) : SurfacePoint{};
   if (point.n == 0) {
     gauge.complain("on",
                    "'" + gauge.word("on") +

@@ -152,6 +152,7 @@ void add_parts(const Keys& root, Draft& draft) {
     const Keys part = root.map("parts").map(name);
     const std::string like = fluid_of(root, part.map("wall"));
     if (like.empty()) continue;
+    if (part.has("map")) part.complain("map", "moves the points of elements, not those of a fill");
     if (!part.has("fill")) {
       part.complain("fill", "missing; a wall needs a region to fill: fill: {box: {from, to}}");
       continue;
