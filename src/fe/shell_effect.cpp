@@ -258,10 +258,34 @@ Cells cells_of(const Part& part, const std::vector<Vec3>& fibre, bool triangles)
   return cells;
 }
 
+/// Throws std::invalid_argument that names the first cell of the part without an area.
+void require_areas(const Part& part, const Nodes& nodes) {
+  for (Index c = 0; c < part.n_cells(); ++c) {
+    const auto x = [&](Index a) {
+      return xyz(nodes.x[static_cast<std::size_t>(part.connectivity[4 * c + a])]);
+    };
+    if ((x(2) - x(0)).cross(x(3) - x(1)).norm() > 0) continue;
+    throw std::invalid_argument("element " + std::to_string(c + 1) + " has no area");
+  }
+}
+
+/// What has no meaning where every cell is a triangle.
+void refuse_for_triangles(const Keys& given, const ShellPart& shell) {
+  if (shell.blocks.front()->section.kind != ShellKind::triangle) return;
+  for (const char* key : {"hourglass", "warping"}) {
+    if (given.given(key)) {
+      given.complain(key,
+                     "has no meaning: all cells of the part are triangles, which know the "
+                     "surface around them and have no modes that they do not see");
+    }
+  }
+}
+
 /// Makes the blocks of a part. Throws std::invalid_argument as make_shell_block().
 void make_blocks(Scene& scene, const ElasticPlastic& material, ShellSection section,
                  ShellPart& shell) {
   const Part& part = scene.parts[static_cast<std::size_t>(shell.part)];
+  require_areas(part, scene.nodes);
   const std::vector<Vec3> fibre = fibres_of(part.connectivity, scene.nodes.x);
   for (const bool triangles : {false, true}) {
     const Cells cells = cells_of(part, fibre, triangles);
@@ -298,6 +322,7 @@ void state(const Keys& root, Scene& scene) {
       scene.store.get<ShellParts>().list.pop_back();
       continue;
     }
+    refuse_for_triangles(given, shell);
     track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
