@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "body/damping.hpp"
 #include "body/effects.hpp"
+#include "body/prescribed_motion.hpp"
 #include "scene/tracked_values.hpp"
 
 namespace gannet {
@@ -140,16 +141,6 @@ void operations(const Keys& root, Scene& scene, Models& models) {
             }});
 }
 
-/// The path of a node in turning at level n: as work_path().
-WorkPath turning_path(const Nodes& nodes, Index i, const Step& step) {
-  const Vec3 omega_new = xyz(nodes.omega[i]);
-  const Vec3 a = xyz(nodes.torque[i]) * nodes.omega[i].w;
-  WorkPath path;
-  path.col(0) = (omega_new - a * (0.5 * (step.dt_old + step.dt))) * (0.5 * step.dt_old);
-  path.col(1) = omega_new * (0.5 * step.dt);
-  return path;
-}
-
 }  // namespace
 
 double frequency_squared(const ElementRelaxation& r, const Nodes& nodes, const Step& step) {
@@ -205,7 +196,7 @@ Work work_of(const ElementRelaxation& r, const Nodes& nodes, const Step& step) {
       const Index i = r.nodes.begin + k;
       lost -= work_along(work_path(nodes, i, step), xyz(r.f[k]));
       if (!r.turning.contains(i)) continue;
-      lost -= work_along(turning_path(nodes, i, step), xyz(r.torque[k]));
+      lost -= work_along(rotation_path(nodes, i, step), xyz(r.torque[k]));
     }
     return lost;
   });

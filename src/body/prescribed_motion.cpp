@@ -24,16 +24,6 @@ Vec3 constrain(Line& rate, unsigned bits, const double* wanted, double dt) {
   return reaction;
 }
 
-/// Path of a rotation at level n, as work_path() for translations [rad].
-WorkPath rotation_path(const Nodes& nodes, std::size_t i, const Step& step) {
-  const Vec3 omega = xyz(nodes.omega[i]);
-  const Vec3 change = xyz(nodes.torque[i]) * (nodes.omega[i].w * 0.5 * (step.dt_old + step.dt));
-  WorkPath path;
-  path.col(0) = (omega - change) * (0.5 * step.dt_old);
-  path.col(1) = omega * (0.5 * step.dt);
-  return path;
-}
-
 template <class F>
 void for_entries(const std::vector<Index>& entries, F&& f) {
   parallel_for(static_cast<Index>(entries.size()), chunk, [&](Index a, Index b) {
@@ -42,6 +32,15 @@ void for_entries(const std::vector<Index>& entries, F&& f) {
 }
 
 }  // namespace
+
+WorkPath rotation_path(const Nodes& nodes, Index i, const Step& step) {
+  const Line& omega = nodes.omega[static_cast<std::size_t>(i)];
+  const Vec3 a = xyz(nodes.torque[static_cast<std::size_t>(i)]) * omega.w;
+  WorkPath path;
+  path.col(0) = (xyz(omega) - a * (0.5 * (step.dt_old + step.dt))) * (0.5 * step.dt_old);
+  path.col(1) = xyz(omega) * (0.5 * step.dt);
+  return path;
+}
 
 void kick_prescribed(PrescribedMotion& motion, const std::vector<Index>& entries, Nodes& nodes,
                      const Step& step) {
@@ -72,8 +71,7 @@ Work work_of_reactions(const PrescribedMotion& motion, const std::vector<Index>&
       const Index i = motion.nodes[k];
       work += work_along(work_path(nodes, i, step), xyz(motion.reaction[k]));
       if ((motion.mask[k] & rotations) == 0) continue;
-      work += work_along(rotation_path(nodes, static_cast<std::size_t>(i), step),
-                         xyz(motion.couple[k]));
+      work += work_along(rotation_path(nodes, i, step), xyz(motion.couple[k]));
     }
     return work;
   });

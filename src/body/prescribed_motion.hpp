@@ -56,4 +56,7 @@ void set_velocities(const PrescribedMotion& motion, Nodes& nodes, double t);
 /// Adds kick, work and the measures "boundary.NAME.force", "boundary.NAME.moment" of one motion.
 void add_prescribed_motion(PrescribedMotion& motion, Scene& scene, Models& models);
 
+/// The path of a node in turning at level n [rad], as work_path() for translations.
+WorkPath rotation_path(const Nodes& nodes, Index i, const Step& step);
+
 }  // namespace gannet
