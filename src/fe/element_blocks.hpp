@@ -23,6 +23,12 @@ inline Index corner_of(std::span<const Index> corners, int nodes_per_element, In
   return corners[static_cast<std::size_t>((e / lanes * nodes_per_element + a) * lanes + e % lanes)];
 }
 
+/// Where number k of element e stands in the state of a block: n_values numbers an element, eight
+/// elements beside each other.
+inline std::size_t place_in_blocks(Index e, int k, int n_values) {
+  return static_cast<std::size_t>((e / lanes * n_values + k) * lanes + e % lanes);
+}
+
 /// Calls f(chunk, first block, end of blocks) for all chunks, those of one colour at the same time.
 template <class F>
 void for_chunks_by_colour(const ChunkColours& colouring, Index n_elements, F&& f) {

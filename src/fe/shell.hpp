@@ -63,10 +63,10 @@ struct ShellBlock {
   [[nodiscard]] Index n_blocks() const { return blocks_for(n_elements); }
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
-    return state[static_cast<std::size_t>(((e / 8) * layout.n_values() + k) * 8 + e % 8)];
+    return state[place_in_blocks(e, k, layout.n_values())];
   }
   [[nodiscard]] double value(Index e, int k) const {
-    return state[static_cast<std::size_t>(((e / 8) * layout.n_values() + k) * 8 + e % 8)];
+    return state[place_in_blocks(e, k, layout.n_values())];
   }
 };
 

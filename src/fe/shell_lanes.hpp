@@ -2,6 +2,7 @@
 // sums by lane. For *.isa.cpp files only.
 #pragma once
 
+#include "fe/lane_extremes.hpp"
 #include "fe/shell_kernel.hpp"
 #include "fe/vec8x3.hpp"
 
@@ -131,27 +132,12 @@ GANNET_INLINE void over_blocks(const ShellPass& pass, std::int32_t begin, std::i
   out.plastic = sum(sums.plastic);
   out.hourglass = sum(sums.hourglass);
   out.eroded = sum(sums.eroded);
-  alignas(64) double omega2[8];
-  alignas(64) double index[8];
-  alignas(64) double ratio[8];
-  alignas(64) double smallest[8];
-  sums.omega2.store(omega2);
-  sums.block.store(index);
-  sums.area_ratio.store(ratio);
-  sums.smallest.store(smallest);
   out.omega2 = 0;
   out.element = -1;
+  take_largest(sums.omega2, sums.block, out.omega2, out.element);
   out.area_ratio = 1;
   out.smallest = -1;
-  for (int lane = 0; lane < 8; ++lane) {
-    if (ratio[lane] < out.area_ratio) {
-      out.area_ratio = ratio[lane];
-      out.smallest = 8 * static_cast<std::int32_t>(smallest[lane]) + lane;
-    }
-    if (omega2[lane] <= out.omega2) continue;
-    out.omega2 = omega2[lane];
-    out.element = 8 * static_cast<std::int32_t>(index[lane]) + lane;
-  }
+  take_smallest(sums.area_ratio, sums.smallest, out.area_ratio, out.smallest);
 }
 
 /// The same with the law that the block has.

@@ -53,10 +53,10 @@ struct SolidBlock {
   bool erodes = false;          ///< collapsed elements leave; else they stop the run
   /// Number k of element e.
   [[nodiscard]] double& value(Index e, int k) {
-    return state[static_cast<std::size_t>((e / lanes * layout.n_values() + k) * lanes + e % lanes)];
+    return state[place_in_blocks(e, k, layout.n_values())];
   }
   [[nodiscard]] double value(Index e, int k) const {
-    return state[static_cast<std::size_t>((e / lanes * layout.n_values() + k) * lanes + e % lanes)];
+    return state[place_in_blocks(e, k, layout.n_values())];
   }
 };
 

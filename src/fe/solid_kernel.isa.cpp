@@ -1,5 +1,6 @@
 #include "fe/solid_kernel.hpp"
 
+#include "fe/lane_extremes.hpp"
 #include "fe/solid_element.hpp"
 #include "fe/solid_forces.hpp"
 
@@ -440,24 +441,8 @@ __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t be
   out.hourglass = sum(sums.hourglass);
   out.viscous = sum(sums.viscous);
   out.eroded = sum(sums.eroded);
-  alignas(64) double omega2[8];
-  alignas(64) double index[8];
-  alignas(64) double ratio[8];
-  alignas(64) double smallest[8];
-  sums.omega2.store(omega2);
-  sums.block.store(index);
-  sums.volume_ratio.store(ratio);
-  sums.smallest.store(smallest);
-  for (int lane = 0; lane < 8; ++lane) {
-    if (omega2[lane] > out.omega2) {
-      out.omega2 = omega2[lane];
-      out.element = 8 * static_cast<std::int32_t>(index[lane]) + lane;
-    }
-    if (ratio[lane] < out.volume_ratio) {
-      out.volume_ratio = ratio[lane];
-      out.smallest = 8 * static_cast<std::int32_t>(smallest[lane]) + lane;
-    }
-  }
+  take_largest(sums.omega2, sums.block, out.omega2, out.element);
+  take_smallest(sums.volume_ratio, sums.smallest, out.volume_ratio, out.smallest);
 }
 
 }  // namespace gannet::GANNET_ISA_NS

@@ -23,8 +23,7 @@ double length_of(const TrussBlock& block, const Nodes& nodes, Index e) {
 void set_element(TrussBlock& block, Index e, double length) {
   const double l0 = length / (1 + block.prestrain);
   const auto put = [&](TrussValue k, double value) {
-    block.state[static_cast<std::size_t>((e / lanes * truss_values + k) * lanes + e % lanes)] =
-        value;
+    block.state[place_in_blocks(e, k, truss_values)] = value;
   };
   put(truss_l0, l0);
   put(truss_length, length);

@@ -41,7 +41,7 @@ struct TrussBlock {
   Index n_broken = 0;           ///< so far
   [[nodiscard]] Index n_elements() const { return static_cast<Index>(ends.size() / 2); }
   [[nodiscard]] double value(Index e, TrussValue k) const {
-    return state[static_cast<std::size_t>((e / lanes * truss_values + k) * lanes + e % lanes)];
+    return state[place_in_blocks(e, k, truss_values)];
   }
 };
 

@@ -1,5 +1,6 @@
 #include "fe/truss_kernel.hpp"
 
+#include "fe/lane_extremes.hpp"
 #include "fe/vec8x3.hpp"
 
 namespace gannet::GANNET_ISA_NS {
@@ -117,21 +118,6 @@ GANNET_INLINE void truss_block(const TrussPass& pass, const Constants& k, std::i
   sums.block = select(larger, Vec8(static_cast<double>(block)), sums.block);
 }
 
-/// The largest rate of eight lanes and whose it is.
-GANNET_INLINE void find_largest(const LaneSums& lanes, TrussSums& sums) {
-  alignas(64) double rate[8];
-  alignas(64) double block[8];
-  lanes.rate.store(rate);
-  lanes.block.store(block);
-  sums.rate = 0;
-  sums.element = -1;
-  for (int lane = 0; lane < 8; ++lane) {
-    if (rate[lane] <= sums.rate) continue;
-    sums.rate = rate[lane];
-    sums.element = 8 * static_cast<std::int32_t>(block[lane]) + lane;
-  }
-}
-
 template <bool damped, bool breaks>
 GANNET_INLINE void run(const TrussPass& pass, std::int32_t begin, std::int32_t end,
                        TrussSums& sums) {
@@ -144,7 +130,9 @@ GANNET_INLINE void run(const TrussPass& pass, std::int32_t begin, std::int32_t e
   sums.damping = sum(lanes.damping);
   sums.eroded = sum(lanes.eroded);
   sums.broken = sum(lanes.broken);
-  find_largest(lanes, sums);
+  sums.rate = 0;
+  sums.element = -1;
+  take_largest(lanes.rate, lanes.block, sums.rate, sums.element);
   if constexpr (!damped) sums.rate = __builtin_sqrt(sums.rate);
 }
 
