@@ -58,6 +58,7 @@ std::vector<Effect> make_table() {
       solid_effect(),              //
       cable_effect(),              //
       beam_effect(),               //
+      mass_scaling_effect(),       // what those elements have made of it
       plane_contact_effect(),      //
       contacts_effect(),           //
       pressure_effect(),           //

@@ -156,7 +156,8 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
     add_xyz(nodes.torque[static_cast<std::size_t>(a)], -M_1);
     add_xyz(nodes.torque[static_cast<std::size_t>(b)], -M_2);
     show_forces(block, e, f, inverse_l);
-    const double omega2 = omega2_of(block.law, block.l0[k], pose.l, f.N);
+    double omega2 = omega2_of(block.law, block.l0[k], pose.l, f.N);
+    if (!block.inverse_mass.empty()) omega2 *= block.inverse_mass[k];
     if (omega2 <= sums.omega2) continue;
     sums.omega2 = omega2;
     sums.element = e;
@@ -223,14 +224,28 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
   return block;
 }
 
-void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
+BeamNodeMass node_mass(const BeamBlock& block, Index e) {
   const BeamSection& s = block.law.section;
+  const double l0 = block.l0[static_cast<std::size_t>(e)];
   const double r2 = std::max(s.I_y, s.I_z) / s.A;
+  const double m = 0.5 * block.law.rho * s.A * l0;
+  return {m, rotary_ratio(block.law, l0) * m * r2};
+}
+
+Array<double> bounds_of(const BeamBlock& block) {
+  Array<double> bounds(static_cast<std::size_t>(lanes * blocks_for(block.n_elements())), 0);
+  for (std::size_t e = 0; e < block.l0.size(); ++e) {
+    bounds[e] = omega2_of(block.law, block.l0[e], block.l0[e], 0);
+  }
+  return bounds;
+}
+
+void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
   for (std::size_t k = 0; k < block.ends.size(); ++k) {
     const auto i = static_cast<std::size_t>(block.ends[k]);
-    const double m = 0.5 * block.law.rho * s.A * block.l0[k / 2];
-    nodes.x[i].w += m;
-    nodes.torque[i].w += rotary_ratio(block.law, block.l0[k / 2]) * m * r2;
+    const BeamNodeMass mass = node_mass(block, static_cast<Index>(k / 2));
+    nodes.x[i].w += mass.m;
+    nodes.torque[i].w += mass.I;
   }
 }
 

@@ -54,6 +54,7 @@ struct BeamBlock {
   BeamLaw law;
   Range nodes;                    ///< of the part; all have rotations
   Array<Index> ends;              ///< node numbers
+  Array<double> inverse_mass;     ///< see ElementVotes; none: no mass was added
   Array<double> l0;               ///< unstrained length of each element [m]
   std::vector<Quaternion> frame;  ///< of each element at the start: x along it, y, z of its section
   Array<Line> turned;    ///< how far each node has turned since the start: quaternion w, x, y, z
@@ -87,6 +88,16 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
 /// not limit the step (see omega2_of() in beam.cpp):
 ///   max(1, 3 q/max(1, 1 + phi - 12 I/(A l0^2))) over both planes, q = I/max(I_y, I_z)
 double rotary_ratio(const BeamLaw& law, double l0);
+
+/// Mass [kg] and rotary inertia [kg m^2] that element e gives to each of its nodes.
+struct BeamNodeMass {
+  double m = 0;
+  double I = 0;
+};
+BeamNodeMass node_mass(const BeamBlock& block, Index e);
+
+/// Squares of the bounds of the frequencies of the unstrained elements [1/s^2], eight a block.
+Array<double> bounds_of(const BeamBlock& block);
 
 /// Adds to both nodes of each element m = rho A l0/2, and rotary_ratio() m max(I_y, I_z)/A.
 void add_beam_masses(const BeamBlock& block, Nodes& nodes);

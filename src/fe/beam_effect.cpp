@@ -7,6 +7,7 @@
 #include "fe/beam.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
+#include "fe/mass_scaling.hpp"
 #include "material/elastic_plastic.hpp"
 #include "mesh/line_shapes.hpp"
 #include "mesh/mesh_keys.hpp"
@@ -88,6 +89,23 @@ void track(Scene& scene, BeamBlock& block) {
   track_shown(scene, block.part, std::move(forces));
 }
 
+void scale_masses(const Keys& part, BeamBlock& block, Scene& scene) {
+  if (!part.has("mass_scaling")) return;
+  ScalableElements elements{
+      .n_elements = block.n_elements(),
+      .n_corners = 2,
+      .dt_factor = block.law.dt_factor,
+      .bounds = bounds_of(block),
+      .mass = [&](Index e) -> CornerMass {
+        const BeamNodeMass own = node_mass(block, e);
+        return {own.m, own.I};
+      },
+      .corner = [&](Index e, int a) { return block.ends[static_cast<std::size_t>(2 * e + a)]; },
+      .cell = [](Index e) { return e; },
+      .inverse_mass = &block.inverse_mass};
+  scale_masses(part, block.part, scene, {&elements, 1});
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "beam")) {
     const int number = scene.part_number(keys.name());
@@ -108,6 +126,7 @@ void state(const Keys& root, Scene& scene) {
     block.name = part.name;
     block.part = number;
     add_beam_masses(block, scene.nodes);
+    scale_masses(keys, block, scene);
     track(scene, block);
   }
 }

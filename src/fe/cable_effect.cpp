@@ -7,6 +7,7 @@
 
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
+#include "fe/mass_scaling.hpp"
 #include "fe/truss.hpp"
 #include "material/elastic_plastic.hpp"
 #include "mesh/line_shapes.hpp"
@@ -199,6 +200,22 @@ void add_measures(Scene& scene, const TrussBlock& block) {
        }});
 }
 
+void scale_masses(const Keys& part, TrussBlock& block, Scene& scene) {
+  if (!part.has("mass_scaling")) return;
+  ScalableElements elements{
+      .n_elements = block.n_elements(),
+      .n_corners = 2,
+      .dt_factor = block.dt_factor,
+      .bounds = bounds_of(block, scene.nodes),
+      .mass = [&](Index e) -> CornerMass {
+        return {0.5 * block.mu * block.value(e, truss_l0), 0};
+      },
+      .corner = [&](Index e, int a) { return block.ends[static_cast<std::size_t>(2 * e + a)]; },
+      .cell = [](Index e) { return e; },
+      .inverse_mass = &block.inverse_mass};
+  scale_masses(part, block.part, scene, {&elements, 1});
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "cable")) {
     const int number = scene.part_number(keys.name());
@@ -217,6 +234,7 @@ void state(const Keys& root, Scene& scene) {
       continue;
     }
     add_truss_masses(block, scene.nodes);
+    scale_masses(keys, block, scene);
     track(scene, block);
     add_measures(scene, block);
   }

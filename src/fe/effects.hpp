@@ -22,4 +22,9 @@ Effect cable_effect();
 /// the part's `shape` gives.
 Effect beam_effect();
 
+/// parts.NAME.mass_scaling: {step, ceiling}: mass for elements that limit the step. What was added
+/// is the elements' own business (scale_masses() in fe/mass_scaling.hpp); this brings the keys, the
+/// entry of the ledger and what `explain` says.
+Effect mass_scaling_effect();
+
 }  // namespace gannet

@@ -174,12 +174,21 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
   return block;
 }
 
+double corner_mass(const ShellBlock& block, Index e) {
+  const double area = 1 / block.value(e, block.layout.inverse_area());
+  return block.constants.nodal_mass_factor * area;
+}
+
+double corner_alpha(const ShellBlock& block, Index e) {
+  const double area = 1 / block.value(e, block.layout.inverse_area());
+  return std::max(block.constants.smallest_alpha, area / (block.n_corners() == 3 ? 6 : 8));
+}
+
 void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
   const int n_corners = block.n_corners();
   for (Index e = 0; e < block.n_elements; ++e) {
-    const double area = 1 / block.value(e, block.layout.inverse_area());
-    const double mass = block.constants.nodal_mass_factor * area;
-    const double alpha = std::max(block.constants.smallest_alpha, area / (n_corners == 3 ? 6 : 8));
+    const double mass = corner_mass(block, e);
+    const double alpha = corner_alpha(block, e);
     for (int a = 0; a < n_corners; ++a) {
       const auto node = static_cast<std::size_t>(corner_of(block.corners, n_corners, e, a));
       nodes.x[node].w += mass;
@@ -191,16 +200,18 @@ void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
 namespace {
 
 ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque, double dt) {
-  return {.constants = &block.constants,
-          .layout = block.layout,
-          .x = &nodes.x.data()->x,
-          .v = &nodes.v.data()->x,
-          .omega = &nodes.omega.data()->x,
-          .f = &f->x,
-          .torque = &torque->x,
-          .corners = block.corners.data(),
-          .state = block.state.data(),
-          .dt = dt};
+  return {
+      .constants = &block.constants,
+      .layout = block.layout,
+      .x = &nodes.x.data()->x,
+      .v = &nodes.v.data()->x,
+      .omega = &nodes.omega.data()->x,
+      .f = &f->x,
+      .torque = &torque->x,
+      .corners = block.corners.data(),
+      .state = block.state.data(),
+      .votes = {.inverse_mass = block.inverse_mass.empty() ? nullptr : block.inverse_mass.data()},
+      .dt = dt};
 }
 
 /// The pass over blocks [begin, end) that the kind of element has.
@@ -253,29 +264,37 @@ double stable_step(const ShellBlock& block) {
   return block.section.dt_factor * 2 / std::sqrt(block.omega2);
 }
 
+Array<double> bounds_of(const ShellBlock& block, const Nodes& nodes) {
+  ShellBlock copy = block;
+  Array<Line> f(nodes.f.size(), Line{});
+  Array<Line> torque(nodes.torque.size(), Line{});
+  Array<double> bounds(static_cast<std::size_t>(8 * block.n_blocks()), 0);
+  ShellPass pass = pass_over(copy, nodes, f.data(), torque.data(), 0);
+  pass.votes.omega2 = bounds.data();
+  ShellSums sums;
+  pass_blocks(block.section.kind, pass, 0, copy.n_blocks(), sums, isa());
+  return bounds;
+}
+
 std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes,
                                         std::size_t n) {
-  ShellBlock copy = block;
-  Array<Line> f = nodes.f;
-  Array<Line> torque = nodes.torque;
-  const ShellPass pass = pass_over(copy, nodes, f.data(), torque.data(), 0);
-  // An element without thickness has no vote: whoever led a block of 8 is taken out of it.
-  const auto leader = [&](Index b) {
-    ShellSums sums;
-    pass_blocks(block.section.kind, pass, b, b + 1, sums, isa());
-    return sums;
+  const Array<double> bounds = bounds_of(block, nodes);
+  std::vector<Index> order;
+  for (Index e = 0; e < block.n_elements; ++e) {
+    if (bounds[static_cast<std::size_t>(e)] > 0) order.push_back(e);
+  }
+  n = std::min(n, order.size());
+  const auto stiffer = [&](Index a, Index b) {
+    const double of_a = bounds[static_cast<std::size_t>(a)];
+    const double of_b = bounds[static_cast<std::size_t>(b)];
+    return of_a != of_b ? of_a > of_b : a < b;
   };
-  std::vector<ShellSums> first;
-  for (Index b = 0; b < copy.n_blocks(); ++b) first.push_back(leader(b));
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), order.end(),
+                    stiffer);
   std::vector<ElementStep> steps;
-  while (steps.size() < n) {
-    const auto top = std::max_element(first.begin(), first.end(), [](const auto& a, const auto& b) {
-      return a.omega2 < b.omega2;
-    });
-    if (top == first.end() || !(top->omega2 > 0)) break;
-    steps.push_back({block.section.dt_factor * 2 / std::sqrt(top->omega2), top->element});
-    copy.value(top->element, copy.layout.thickness()) = 0;
-    *top = leader(static_cast<Index>(top - first.begin()));
+  for (std::size_t k = 0; k < n; ++k) {
+    const double omega2 = bounds[static_cast<std::size_t>(order[k])];
+    steps.push_back({block.section.dt_factor * 2 / std::sqrt(omega2), order[k]});
   }
   return steps;
 }

@@ -43,9 +43,10 @@ struct ShellBlock {
   ShellConstants constants;
   ShellLayout layout;
   Index n_elements = 0;
-  std::vector<Index> cells;  ///< of the part that the elements are; none: in their order
-  Array<Index> corners;      ///< of a block of 8 in a row: corner a of lane l at 8 a + l
-  Array<double> state;       ///< layout.n_values() * 8 a block
+  std::vector<Index> cells;    ///< of the part that the elements are; none: in their order
+  Array<Index> corners;        ///< of a block of 8 in a row: corner a of lane l at 8 a + l
+  Array<double> inverse_mass;  ///< see ElementVotes; none: no mass was added
+  Array<double> state;         ///< layout.n_values() * 8 a block
   ChunkColours colouring;
   std::vector<ShellSums> sums;  ///< one a chunk, of the last pass
   double omega2 = 0;            ///< of the last pass [1/s^2]
@@ -87,6 +88,12 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
                             const ElasticPlastic& material, const ShellSection& section,
                             Index chunk = shell_chunk, std::span<const Vec3> fibre = {});
 
+/// rho t A over the number of corners of element e [kg].
+double corner_mass(const ShellBlock& block, Index e);
+
+/// Rotary inertia of a corner of element e over its mass, alpha of add_shell_masses() [m^2].
+double corner_alpha(const ShellBlock& block, Index e);
+
 /// Adds the mass (rho t A/4, /3) and the rotary inertia (mass times alpha) of each element to its
 /// corners: nodes.x.w and nodes.torque.w. alpha = max(t^2/12, A/8), of triangles A/6, replaces the
 /// true t^2/12 of thin shells, so that rotations do not limit the step; what it adds acts on wave
@@ -100,8 +107,12 @@ ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set =
 /// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound.
 double stable_step(const ShellBlock& block);
 
-/// The n elements that allow the smallest steps in the state at hand, the smallest first, as a pass
-/// without motion finds them. Changes nothing; for a look, not for each step.
+/// Squares of the bounds of the frequencies of the elements at rest in the positions at hand
+/// [1/s^2], eight a block. Changes nothing.
+Array<double> bounds_of(const ShellBlock& block, const Nodes& nodes);
+
+/// The n elements that allow the smallest steps in the state at hand, the smallest first, by
+/// bounds_of().
 std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes, std::size_t n);
 
 /// Fills stress_shown from the state: global xx, yy, zz, xy, yz, xz at the middle surface (the

@@ -328,7 +328,7 @@ GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, Shell
   quad_forces(now, leaning, forces, f, m);
   scatter_all<4>(pass, number, f, m);
   const Vec8 inverse_alpha = min(Vec8(1.0 / c.smallest_alpha), Vec8(8.0) * state.inverse_A0);
-  sums.vote(quad_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
+  sums.vote(pass, quad_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
 }
 
 /// The triangle.
@@ -495,7 +495,7 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
   }
   scatter_all<3>(pass, number, f, m);
   const Vec8 inverse_alpha = min(Vec8(1.0 / c.smallest_alpha), Vec8(6.0) * state.inverse_A0);
-  sums.vote(triangle_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
+  sums.vote(pass, triangle_omega2(c, now, leaning, t, state.inverse_A0, inverse_alpha), number);
 }
 
 }  // namespace

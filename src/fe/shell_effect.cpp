@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
+#include "fe/mass_scaling.hpp"
 #include "fe/shell.hpp"
 #include "fe/shell_fibres.hpp"
 #include "mesh/mesh_keys.hpp"
@@ -303,6 +304,28 @@ void make_blocks(Scene& scene, const ElasticPlastic& material, ShellSection sect
   }
 }
 
+void scale_masses(const Keys& part, const ShellPart& shell, Scene& scene) {
+  if (!part.has("mass_scaling")) return;
+  std::vector<ScalableElements> blocks;
+  for (ShellBlock* block : shell.blocks) {
+    const int n_corners = block->n_corners();
+    blocks.push_back(
+        {.n_elements = block->n_elements,
+         .n_corners = n_corners,
+         .dt_factor = block->section.dt_factor,
+         .bounds = bounds_of(*block, scene.nodes),
+         .mass = [block](Index e) -> CornerMass {
+           const double m = corner_mass(*block, e);
+           return {m, corner_alpha(*block, e) * m};
+         },
+         .corner = [block, n_corners](Index e,
+                                      int a) { return corner_of(block->corners, n_corners, e, a); },
+         .cell = [block](Index e) { return block->cell(e); },
+         .inverse_mass = &block->inverse_mass});
+  }
+  scale_masses(part, shell.part, scene, blocks);
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "shell")) {
     const int number = scene.part_number(keys.name());
@@ -323,6 +346,7 @@ void state(const Keys& root, Scene& scene) {
       continue;
     }
     refuse_for_triangles(given, shell);
+    scale_masses(keys, shell, scene);
     track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "fe/element_votes.hpp"
 #include "material/j2.hpp"
 
 namespace gannet {
@@ -80,6 +81,7 @@ struct ShellPass {
   double* torque = nullptr;               ///< lines: moments are added [N m]
   const std::int32_t* corners = nullptr;  ///< of a block in a row: corner a of lane l at 8 a + l
   double* state = nullptr;
+  ElementVotes votes;
   double dt = 0;  ///< t(n) - t(n-1) [s]
 };
 

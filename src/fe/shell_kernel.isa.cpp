@@ -65,7 +65,7 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
 
   const Vec8 omega2 =
       shell_omega2(c, now, t, Vec8::load(state + 8 * layout.inverse_area()), K, fibres);
-  sums.vote(omega2, block);
+  sums.vote(pass, omega2, block);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "fe/lane_extremes.hpp"
 #include "fe/shell_kernel.hpp"
 #include "fe/vec8x3.hpp"
+#include "fe/vote_lanes.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -77,8 +78,9 @@ struct ShellLaneSums {
     smallest = select(smaller, Vec8(static_cast<double>(number)), smallest);
     return less(Vec8(limit), ratio);
   }
-  /// Takes note of the bounds of a block [1/s^2].
-  GANNET_INLINE void vote(Vec8 bound, std::int32_t number) {
+  /// Takes note of the bounds of a block, from the own mass of elements [1/s^2].
+  GANNET_INLINE void vote(const ShellPass& pass, Vec8 own, std::int32_t number) {
+    const Vec8 bound = with_added_mass(pass.votes, number, own);
     const auto larger = less(omega2, bound);
     omega2 = select(larger, bound, omega2);
     block = select(larger, Vec8(static_cast<double>(number)), block);

@@ -152,29 +152,57 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   return block;
 }
 
+double corner_mass(const SolidBlock& block, Index e) {
+  return block.material.rho /
+         (block.layout.n_corners() * block.value(e, block.layout.inverse_volume()));
+}
+
 void add_solid_masses(const SolidBlock& block, Nodes& nodes) {
+  const int n_corners = block.layout.n_corners();
   for (Index e = 0; e < block.n_elements; ++e) {
-    const int n_corners = block.layout.n_corners();
-    const double mass =
-        block.material.rho / (n_corners * block.value(e, block.layout.inverse_volume()));
+    const double mass = corner_mass(block, e);
     for (int a = 0; a < n_corners; ++a) {
       nodes.x[static_cast<std::size_t>(corner_of(block.corners, n_corners, e, a))].w += mass;
     }
   }
 }
 
+namespace {
+
+/// f: lines that the forces are added to.
+SolidPass pass_over(SolidBlock& block, const Nodes& nodes, Array<Line>& f, double dt_old) {
+  return {
+      .constants = &block.constants,
+      .layout = block.layout,
+      .x = &nodes.x.data()->x,
+      .v = &nodes.v.data()->x,
+      .f = &f.data()->x,
+      .corners = block.corners.data(),
+      .state = block.state.data(),
+      .nodal = block.layout.tetrahedra()
+                   ? &block.nodal.data()->x - 4 * std::ptrdiff_t{block.first_nodal}
+                   : nullptr,
+      .votes = {.inverse_mass = block.inverse_mass.empty() ? nullptr : block.inverse_mass.data()},
+      .dt = dt_old};
+}
+
+}  // namespace
+
+Array<double> bounds_of(const SolidBlock& block, const Nodes& nodes) {
+  SolidBlock copy = block;
+  Array<Line> f(nodes.f.size(), Line{});
+  Array<double> bounds(static_cast<std::size_t>(lanes * blocks_for(block.n_elements)), 0);
+  SolidPass pass = pass_over(copy, nodes, f, 0);
+  pass.votes.omega2 = bounds.data();
+  if (pass.nodal != nullptr) sum_nodal_volumes(copy, pass, isa());
+  SolidSums sums;
+  isa() == Isa::avx512 ? avx512::solid_force(pass, 0, blocks_for(block.n_elements), sums)
+                       : avx2::solid_force(pass, 0, blocks_for(block.n_elements), sums);
+  return bounds;
+}
+
 ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) {
-  const SolidPass pass{.constants = &block.constants,
-                       .layout = block.layout,
-                       .x = &nodes.x.data()->x,
-                       .v = &nodes.v.data()->x,
-                       .f = &nodes.f.data()->x,
-                       .corners = block.corners.data(),
-                       .state = block.state.data(),
-                       .nodal = block.layout.tetrahedra()
-                                    ? &block.nodal.data()->x - 4 * std::ptrdiff_t{block.first_nodal}
-                                    : nullptr,
-                       .dt = dt_old};
+  const SolidPass pass = pass_over(block, nodes, nodes.f, dt_old);
   if (pass.nodal != nullptr) sum_nodal_volumes(block, pass, set);
   for_chunks_by_colour(block.colouring, block.n_elements, [&](Index chunk, Index begin, Index end) {
     SolidSums& sums = block.sums[static_cast<std::size_t>(chunk)];

@@ -37,9 +37,10 @@ struct SolidBlock {
   SolidConstants constants;
   SolidLayout layout;
   Index n_elements = 0;
-  Array<Index> corners;  ///< corner a of lane l at 8 a + l; 8 layout.n_corners() a block of 8
-  Array<double> state;   ///< layout.n_values() * 8 a block
-  Array<Line> nodal;     ///< of tetrahedra: of nodes first_nodal and on, see SolidPass
+  Array<Index> corners;        ///< corner a of lane l at 8 a + l; 8 layout.n_corners() a block of 8
+  Array<double> state;         ///< layout.n_values() * 8 a block
+  Array<double> inverse_mass;  ///< see ElementVotes; none: no mass was added
+  Array<Line> nodal;           ///< of tetrahedra: of nodes first_nodal and on, see SolidPass
   Index first_nodal = 0;
   ChunkColours colouring;
   std::vector<SolidSums> sums;  ///< one a chunk, of the last pass
@@ -80,8 +81,15 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
 /// thickness in a plane case.
 double volume_of(const SolidBlock& block, Index e, std::span<const Line> x);
 
+/// rho V0 over the number of corners of element e [kg].
+double corner_mass(const SolidBlock& block, Index e);
+
 /// Adds rho V0 over the number of corners to the mass of each corner of each element.
 void add_solid_masses(const SolidBlock& block, Nodes& nodes);
+
+/// Squares of the bounds of the frequencies of the elements at rest in the positions at hand,
+/// damped as the step is [1/s^2], eight a block. Changes nothing.
+Array<double> bounds_of(const SolidBlock& block, const Nodes& nodes);
 
 /// One pass: stress to n, forces at n added to nodes.f (see solid_kernel.hpp). dt_old: t(n) -
 /// t(n-1) [s]. set: instruction set. The bits depend on no number of threads.

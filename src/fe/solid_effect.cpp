@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
+#include "fe/mass_scaling.hpp"
 #include "fe/solid.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "mesh/volume_shapes.hpp"
@@ -183,6 +184,24 @@ void add_measures(Scene& scene, const SolidBlock& block) {
                             }});
 }
 
+void scale_masses(const Keys& part, SolidBlock& block, Scene& scene) {
+  if (!part.has("mass_scaling")) return;
+  const int n_corners = block.layout.n_corners();
+  ScalableElements elements{
+      .n_elements = block.n_elements,
+      .n_corners = n_corners,
+      .dt_factor = block.section.dt_factor,
+      .bounds = bounds_of(block, scene.nodes),
+      .mass = [&](Index e) -> CornerMass {
+        return {corner_mass(block, e), 0};
+      },
+      .corner = [&, n_corners](Index e,
+                               int a) { return corner_of(block.corners, n_corners, e, a); },
+      .cell = [](Index e) { return e; },
+      .inverse_mass = &block.inverse_mass};
+  scale_masses(part, block.part, scene, {&elements, 1});
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "solid")) {
     const int number = scene.part_number(keys.name());
@@ -203,6 +222,7 @@ void state(const Keys& root, Scene& scene) {
     block.name = part.name;
     block.part = number;
     add_solid_masses(block, scene.nodes);
+    scale_masses(keys, block, scene);
     track(scene, block);
     add_measures(scene, block);
   }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "fe/element_votes.hpp"
 #include "material/hyperelastic.hpp"
 #include "material/j2.hpp"
 
@@ -73,6 +74,7 @@ struct SolidPass {
   /// Lines, of tetrahedra: x a quarter of the volumes around a node [m^3], y of those at the start,
   /// z ln(x/y).
   double* nodal = nullptr;
+  ElementVotes votes;
   double dt = 0;  ///< t(n) - t(n-1) [s]
 };
 

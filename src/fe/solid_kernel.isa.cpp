@@ -3,6 +3,7 @@
 #include "fe/lane_extremes.hpp"
 #include "fe/solid_element.hpp"
 #include "fe/solid_forces.hpp"
+#include "fe/vote_lanes.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -210,7 +211,7 @@ GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
   for (int a = 0; a < pass.layout.n_corners(); ++a) {
     scatter_corner(pass.f, corners, a, at_corner[a]);
   }
-  note_extremes(m.of_alive(omega2), m.shrunk_to, block, sums);
+  note_extremes(with_added_mass(pass.votes, block, m.of_alive(omega2)), m.shrunk_to, block, sums);
 }
 
 /// By how much damping zeta of the highest mode lowers the stable step, squared: omega^2 times

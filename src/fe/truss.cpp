@@ -31,19 +31,21 @@ void set_element(TrussBlock& block, Index e, double length) {
 }
 
 TrussPass pass_of(TrussBlock& block, Nodes& nodes, double dt_old) {
-  return {.EA = block.EA,
-          .corners_of_law = block.law.data(),
-          .n_corners = static_cast<int>(block.law.size()),
-          .mu = block.mu,
-          .tension_only = block.tension_only,
-          .damping_ratio = block.damping_ratio,
-          .damping_time = block.damping_time,
-          .strength = block.strength,
-          .x = &nodes.x.data()->x,
-          .f = &nodes.f.data()->x,
-          .corners = block.corners.data(),
-          .state = block.state.data(),
-          .dt = dt_old};
+  return {
+      .EA = block.EA,
+      .corners_of_law = block.law.data(),
+      .n_corners = static_cast<int>(block.law.size()),
+      .mu = block.mu,
+      .tension_only = block.tension_only,
+      .damping_ratio = block.damping_ratio,
+      .damping_time = block.damping_time,
+      .strength = block.strength,
+      .x = &nodes.x.data()->x,
+      .f = &nodes.f.data()->x,
+      .corners = block.corners.data(),
+      .state = block.state.data(),
+      .votes = {.inverse_mass = block.inverse_mass.empty() ? nullptr : block.inverse_mass.data()},
+      .dt = dt_old};
 }
 
 }  // namespace
@@ -75,6 +77,20 @@ void rest_at_present_length(TrussBlock& block, const Nodes& nodes) {
   }
   block.colouring = colour_chunks(block.ends, 2, truss_chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
+}
+
+Array<double> bounds_of(const TrussBlock& block, const Nodes& nodes) {
+  TrussBlock copy = block;
+  Nodes scratch;
+  scratch.x = nodes.x;
+  scratch.f.assign(nodes.f.size(), {});
+  Array<double> bounds(static_cast<std::size_t>(lanes * blocks_for(block.n_elements())), 0);
+  TrussPass pass = pass_of(copy, scratch, 0);
+  pass.votes.omega2 = bounds.data();
+  TrussSums sums;
+  isa() == Isa::avx512 ? avx512::truss_force_pass(pass, 0, blocks_for(block.n_elements()), sums)
+                       : avx2::truss_force_pass(pass, 0, blocks_for(block.n_elements()), sums);
+  return bounds;
 }
 
 void add_truss_masses(const TrussBlock& block, Nodes& nodes) {

@@ -32,8 +32,9 @@ struct TrussBlock {
   double strength = 0;        ///< force at which an element breaks [N]; 0: never
   int part = -1;              ///< number of the part in the scene; -1 where there is none
   Array<Index> ends;
-  Array<Index> corners;  ///< the same by blocks (fe/element_blocks.hpp)
-  Array<double> state;   ///< fe/truss_kernel.hpp
+  Array<Index> corners;        ///< the same by blocks (fe/element_blocks.hpp)
+  Array<double> state;         ///< fe/truss_kernel.hpp
+  Array<double> inverse_mass;  ///< see ElementVotes; none: no mass was added
   ChunkColours colouring;
   std::vector<TrussSums> sums;  ///< one a chunk, of the last pass
   double shortest = 0;          ///< smallest stable step of the last pass [s]
@@ -60,6 +61,10 @@ inline constexpr Index truss_chunk = 512;
 /// Takes the lengths between the nodes as they stand for (1 + prestrain) l0 and sets the arrays up.
 /// Throws std::invalid_argument that names the element where two nodes coincide.
 void rest_at_present_length(TrussBlock& block, const Nodes& nodes);
+
+/// (2/dt)^2 of the steps dt that the elements allow at rest in the positions at hand [1/s^2], eight
+/// a block. Changes nothing.
+Array<double> bounds_of(const TrussBlock& block, const Nodes& nodes);
 
 /// Adds mu l0/2 to the mass of both nodes of every element.
 void add_truss_masses(const TrussBlock& block, Nodes& nodes);

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "fe/element_votes.hpp"
+
 namespace gannet {
 
 /// Numbers of an element. Number k of lane l of block b is at state[(b truss_values + k) 8 + l].
@@ -40,7 +42,8 @@ struct TrussPass {
   double* f = nullptr;                    ///< lines: forces are added [N]
   const std::int32_t* corners = nullptr;  ///< 16 a block: end a of lane l at 8 a + l
   double* state = nullptr;
-  double dt = 0;  ///< t(n) - t(n-1) [s]; 0 before the first step
+  ElementVotes votes;  ///< bounds: (2/dt)^2 of the steps dt that elements allow
+  double dt = 0;       ///< t(n) - t(n-1) [s]; 0 before the first step
 };
 
 /// What a pass adds up over its elements.

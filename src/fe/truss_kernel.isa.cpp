@@ -107,12 +107,15 @@ GANNET_INLINE void truss_block(const TrussPass& pass, const Constants& k, std::i
   scatter_corner(pass.f, corners, 0, pull);
   scatter_corner(pass.f, corners, 1, -pull);
 
-  const Vec8 omega2 = max(K, across) * K * k.four_over_EA_mu;
+  const std::int64_t first = 8 * static_cast<std::int64_t>(block);
+  Vec8 omega2 = max(K, across) * K * k.four_over_EA_mu;
+  if (pass.votes.inverse_mass != nullptr) omega2 *= Vec8::load(pass.votes.inverse_mass + first);
   Vec8 rate = omega2;
   if constexpr (damped) {
     const Vec8 b = Vec8(0.5) * omega2 * fma(k.zeta_over_c, l0, k.beta);
     rate = sqrt(fma(b, b, omega2)) + b;
   }
+  if (pass.votes.omega2 != nullptr) (damped ? rate * rate : rate).store(pass.votes.omega2 + first);
   const auto larger = less(sums.rate, rate);
   sums.rate = select(larger, rate, sums.rate);
   sums.block = select(larger, Vec8(static_cast<double>(block)), sums.block);

@@ -227,6 +227,7 @@ parts:
   beam:
     beam: {material: steel, section: {box: {width: 50 mm, height: 80 mm, wall: 5 mm}}}
     shape: {polyline: {points: [[0, 1 m, 0], [3 m, 1 m, 0], [6 m, 1 m, 3 m]], elements: [300, 290]}}
+    mass_scaling: {step: 2 us, ceiling: 20 %}
     initial_velocity: ["3*sin(x)", "5*sin(2*x)", "4*cos(7*x)"]
 boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx, ry, rz]}}
 output: {until: 10 s, checkpoint: never}
