@@ -56,8 +56,8 @@ void set_walls(const Keys& boundary, std::vector<Plane>& list, std::size_t first
   }
   const std::string walls = boundary.has("walls") ? boundary.word("walls") : "mirror";
   const bool slips = !boundary.has("slip") || boundary.word("slip") == "free";
-  if (!slips && walls != "dummy") {
-    boundary.complain("slip", "water sticks to dummy particles alone: say walls: dummy");
+  if (!slips && walls == "contact") {
+    boundary.complain("slip", "water slides along contact; say walls: mirror, or dummy");
   }
   for (std::size_t k = first; k < list.size(); ++k) {
     list[k].behind = walls == "dummy"    ? Behind::dummy
@@ -106,12 +106,13 @@ Schema plane_schema() {
                       "what stands behind the planes for particles: mirror images (across an "
                       "axis only), layers of dummy particles, or contact alone",
                   .choices = {"mirror", "dummy", "contact"}};
-  const Key slip{.name = "slip",
-                 .kind = Kind::choice,
-                 .text =
-                     "whether viscous water slides along the planes: free, or none (with walls: "
-                     "dummy)",
-                 .choices = {"free", "none"}};
+  const Key slip{
+      .name = "slip",
+      .kind = Kind::choice,
+      .text =
+          "whether viscous water slides along the planes: free, or none (not with walls: "
+          "contact)",
+      .choices = {"free", "none"}};
   Schema schema;
   for (const Key& key : {planes, plane, walls, slip}) schema.push_back({"boundaries.*", key});
   return schema;

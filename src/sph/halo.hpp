@@ -33,8 +33,8 @@ struct ImageKind {
   Range ghosts;  ///< numbers of the ghosts, from 0
 };
 
-/// A mirror wall that a plane of the scene moves.
-struct MovingWall {
+/// A mirror wall, and the plane of the scene that it follows.
+struct MirrorWall {
   Eigen::Index axis = 0;
   bool lower = true;  ///< the lower end of the direction
   std::size_t plane = 0;
@@ -53,7 +53,9 @@ struct Halo {
                              ///< low is the period
   /// Of those walls, the ones that move: low and high are then where they were at
   /// the last build (tracked), and moving_walls.hpp says where they are.
-  std::vector<MovingWall> moving;
+  std::vector<MirrorWall> moving;
+  /// Of those walls, the ones that water sticks to (sticking_walls.hpp).
+  std::vector<MirrorWall> sticking;
   /// Source of ghost g, whose node is particles.end + g: index among the
   /// particles.
   Array<Index> source;

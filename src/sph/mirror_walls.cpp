@@ -9,7 +9,8 @@
 // hold back what slides along, and energy is kept as without it. The penalty of
 // the plane (contact/planes.hpp) stays for what comes nearer than half a
 // spacing. Planes that move along take their images with them
-// (moving_walls.hpp); planes that turn mirror nothing.
+// (moving_walls.hpp); planes that turn mirror nothing. Where water sticks to a wall its images go
+// the other way (sticking_walls.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@
 #include "sph/ghost_force.hpp"
 #include "sph/moving_walls.hpp"
 #include "sph/sph_state.hpp"
+#include "sph/sticking_walls.hpp"
 
 namespace gannet {
 
@@ -55,14 +57,47 @@ void note_moving_walls(Halo& halo, Scene& scene) {
     const bool lower = plane.normal[d] > 0;
     if ((lower ? halo.low : halo.high)[d] != plane.point[d]) continue;
     const bool known = std::ranges::any_of(
-        halo.moving, [&](const MovingWall& wall) { return wall.axis == d && wall.lower == lower; });
+        halo.moving, [&](const MirrorWall& wall) { return wall.axis == d && wall.lower == lower; });
     if (!known) halo.moving.push_back({d, lower, k});
   }
   if (!halo.moving.empty()) track_walls(halo, scene);
 }
 
+/// The end of a direction where a plane mirrors; nothing for one that does not.
+/// At the start: walls that move are then where their planes are.
+std::optional<MirrorWall> mirrored_at(const Halo& halo, const Scene& scene, std::size_t k) {
+  const Plane& plane = scene.planes[k];
+  const int d = axis_of(plane, scene);
+  if (d < 0) return std::nullopt;
+  const bool lower = plane.normal[d] > 0;
+  const bool wall = (lower ? halo.wall_low : halo.wall_high)[static_cast<std::size_t>(d)];
+  if (!wall || (lower ? halo.low : halo.high)[d] != plane.point[d]) return std::nullopt;
+  return MirrorWall{d, lower, k};
+}
+
+/// The boundary that a plane belongs to: "basin" of "basin.x_min".
+Keys boundary_of(const Keys& root, const Plane& plane) {
+  return root.map("boundaries").map(plane.name.substr(0, plane.name.find('.')));
+}
+
+void note_sticking_walls(const Keys& root, Halo& halo, const Scene& scene) {
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    if (plane.slips || plane.behind != Behind::mirror) continue;
+    const auto wall = mirrored_at(halo, scene, k);
+    if (wall) {
+      halo.sticking.push_back(*wall);
+    } else {
+      boundary_of(root, plane)
+          .complain("slip", "nothing is mirrored at '" + plane.name +
+                                "' (it leans, turns, lies behind another or in a periodic "
+                                "direction): say walls: dummy");
+    }
+  }
+}
+
 /// The innermost plane of each end of a direction mirrors.
-void make_state(const Keys&, Scene& scene) {
+void make_state(const Keys& root, Scene& scene) {
   if (scene.particles.empty()) return;
   Halo& halo = scene.store.get<SphState>().halo;
   for (const Plane& plane : scene.planes) {
@@ -76,23 +111,30 @@ void make_state(const Keys&, Scene& scene) {
     wall = true;
   }
   note_moving_walls(halo, scene);
+  note_sticking_walls(root, halo, scene);
 }
 
-/// The end of a direction where a plane mirrors; nothing for one that does not.
-/// At the start: walls that move are then where their planes are.
-std::optional<MovingWall> mirrored_at(const Halo& halo, const Scene& scene, std::size_t k) {
-  const Plane& plane = scene.planes[k];
-  const int d = axis_of(plane, scene);
-  if (d < 0) return std::nullopt;
-  const bool lower = plane.normal[d] > 0;
-  const bool wall = (lower ? halo.wall_low : halo.wall_high)[static_cast<std::size_t>(d)];
-  if (!wall || (lower ? halo.low : halo.high)[d] != plane.point[d]) return std::nullopt;
-  return MovingWall{d, lower, k};
+bool sticks(const Halo& halo, const MirrorWall& wall) {
+  return std::ranges::any_of(halo.sticking,
+                             [&](const MirrorWall& other) { return other.plane == wall.plane; });
 }
 
-/// The work that the motion of a wall takes: the force of its images on the
+/// Force of the water on a mirror wall, the reaction to that of its images. Along a wall to slide
+/// along the images pull as much one way as the other.
+GhostForce force_on_wall(SphState& sph, Scene& scene, const MirrorWall& wall) {
+  std::vector<char> behind;
+  for (const ImageKind& kind : sph.halo.kinds) {
+    behind.push_back(is_behind(sph.halo, wall, kind.image) ? 1 : 0);
+  }
+  const GhostForce on_water = force_of_ghosts(sph, scene, behind);
+  Vec3 felt = Vec3::Ones();
+  if (!sticks(sph.halo, wall)) felt = Vec3::Unit(wall.axis);
+  return {-felt.cwiseProduct(on_water.total), -felt.cwiseProduct(on_water.viscous)};
+}
+
+/// The work that the motion of a wall takes: the pressure of its images on the
 /// water along its own path.
-void add_work(const SphState& sph, Scene& scene, Models& models, const MovingWall& wall) {
+void add_work(const SphState& sph, Scene& scene, Models& models, const MirrorWall& wall) {
   const Plane& plane = scene.planes[wall.plane];
   LedgerEntry& work = models.ledger.entry("moving mirror", plane.name);
   work.external = true;
@@ -109,8 +151,31 @@ void add_work(const SphState& sph, Scene& scene, Models& models, const MovingWal
                  }});
 }
 
+/// What a wall that moves and that water sticks to puts in by its viscous force: from outside, and
+/// into what the viscous terms take, which is measured on the water alone.
+void add_viscous_work(SphState& sph, Scene& scene, Models& models, const MirrorWall& wall) {
+  const Plane& plane = scene.planes[wall.plane];
+  LedgerEntry& outside = models.ledger.entry("mirror drag", plane.name);
+  outside.external = true;
+  const char* term = sph.f_laminar.empty() ? "artificial_viscosity" : "laminar_viscosity";
+  LedgerEntry& taken = models.ledger.entry(term, plane.name);
+  models.of_node(scene.particles.begin)
+      .plan.add({.name = "viscous work of mirror " + plane.name,
+                 .reason = asked_for_at(plane.where),
+                 .stage = Stage::look,
+                 .reads = {"x", "v", "rho"},
+                 .run = [&sph, &scene, &outside, &taken, wall](const Step& step) {
+                   const Plane& now = scene.planes[wall.plane];
+                   const Vec3 force = -force_on_wall(sph, scene, wall).viscous;
+                   const Work work{0.5 * step.dt_old * force.dot(now.velocity_old),
+                                   0.5 * step.dt * force.dot(now.velocity)};
+                   outside.add_work(work);
+                   taken.add_work(work);
+                 }});
+}
+
 /// Images go with walls that move, after every copy to them.
-void add_moving_walls(const SphState& sph, Scene& scene, Models& models) {
+void add_moving_walls(SphState& sph, Scene& scene, Models& models) {
   Plan& plan = models.of_node(scene.particles.begin).plan;
   for (const Stage stage : {Stage::half_drift, Stage::rates, Stage::drift}) {
     plan.add({.name = fmt::format("mirror: images go with their walls after {}", name_of(stage)),
@@ -120,35 +185,34 @@ void add_moving_walls(const SphState& sph, Scene& scene, Models& models) {
               .writes = {"ghosts"},
               .run = [&sph, &scene](const Step&) { move_images(sph.halo, scene); }});
   }
-  for (const MovingWall& wall : sph.halo.moving) add_work(sph, scene, models, wall);
+  for (const MirrorWall& wall : sph.halo.moving) {
+    add_work(sph, scene, models, wall);
+    const bool viscous = !sph.f_viscous.empty() || !sph.f_laminar.empty();
+    if (viscous && sticks(sph.halo, wall)) add_viscous_work(sph, scene, models, wall);
+  }
 }
 
-/// Force on a mirror wall along its axis, the reaction to that of its images on the water: along
-/// the wall the images pull as much one way as the other.
-struct WallForce {
-  double total = 0;    ///< [N]
-  double viscous = 0;  ///< its viscous part [N]
-};
-
-WallForce force_on_wall(SphState& sph, Scene& scene, const MovingWall& wall) {
-  const Eigen::Index d = wall.axis;
-  const double at = (wall.lower ? sph.halo.low : sph.halo.high)[d];
-  std::vector<char> behind;
-  for (const ImageKind& kind : sph.halo.kinds) {
-    behind.push_back(kind.image.sign[d] < 0 && kind.image.shift[d] == 2 * at ? 1 : 0);
-  }
-  const GhostForce on_water = force_of_ghosts(sph, scene, behind);
-  return {-on_water.total[d], -on_water.viscous[d]};
+/// Images behind walls that water sticks to, as the force pass of the next step sees them.
+void add_sticking_walls(const SphState& sph, Scene& scene, Models& models) {
+  const Plane& plane = scene.planes[sph.halo.sticking.front().plane];
+  models.of_node(scene.particles.begin)
+      .plan.add({.name = "mirror: water sticks to walls",
+                 .reason = asked_for_at(plane.where),
+                 .stage = Stage::drift,
+                 .reads = {"v"},
+                 .writes = {"ghosts"},
+                 .run = [&sph, &scene](const Step&) { stick_images(sph.halo, scene); }});
 }
 
 /// What the planes already measure is the force of their penalty: adds that of the images.
-void add_measures(SphState& sph, Scene& scene, const MovingWall& wall) {
+void add_measures(SphState& sph, Scene& scene, const MirrorWall& wall) {
   const std::string name = "plane." + scene.planes[wall.plane].name;
   for (Measure& m : scene.measures) {
     if (m.name != name + ".force") continue;
     m.sample = [&sph, &scene, wall, penalty = m.sample](double* out) {
       penalty(out);
-      out[wall.axis] += force_on_wall(sph, scene, wall).total;
+      const Vec3 force = force_on_wall(sph, scene, wall).total;
+      for (int d = 0; d < 3; ++d) out[d] += force[d];
     };
   }
   if (sph.f_viscous.empty() && sph.f_laminar.empty()) return;
@@ -156,8 +220,8 @@ void add_measures(SphState& sph, Scene& scene, const MovingWall& wall) {
                             .unit = "N",
                             .components = {"x", "y", "z"},
                             .sample = [&sph, &scene, wall](double* out) {
-                              out[0] = out[1] = out[2] = 0;
-                              out[wall.axis] = force_on_wall(sph, scene, wall).viscous;
+                              const Vec3 force = force_on_wall(sph, scene, wall).viscous;
+                              for (int d = 0; d < 3; ++d) out[d] = force[d];
                             }});
 }
 
@@ -169,11 +233,7 @@ void add_operations(const Keys&, Scene& scene, Models& models) {
     if (wall) add_measures(sph, scene, *wall);
   }
   if (!sph.halo.moving.empty()) add_moving_walls(sph, scene, models);
-}
-
-/// The boundary that a plane belongs to: "basin" of "basin.x_min".
-Keys boundary_of(const Keys& root, const Plane& plane) {
-  return root.map("boundaries").map(plane.name.substr(0, plane.name.find('.')));
+  if (!sph.halo.sticking.empty()) add_sticking_walls(sph, scene, models);
 }
 
 bool stands_across_an_axis(const Plane& plane, const Scene& scene) {

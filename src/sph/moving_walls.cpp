@@ -9,29 +9,28 @@ namespace gannet {
 
 namespace {
 
-double& place_of(Halo& halo, const MovingWall& wall) {
+double& place_of(Halo& halo, const MirrorWall& wall) {
   return (wall.lower ? halo.low : halo.high)[wall.axis];
 }
-double place_of(const Halo& halo, const MovingWall& wall) {
+double place_of(const Halo& halo, const MirrorWall& wall) {
   return (wall.lower ? halo.low : halo.high)[wall.axis];
-}
-
-/// Whether images of this kind are mirrored by the wall.
-bool is_behind(const Halo& halo, const MovingWall& wall, const Image& image) {
-  return image.sign[wall.axis] < 0 && image.shift[wall.axis] == 2 * place_of(halo, wall);
 }
 
 }  // namespace
 
+bool is_behind(const Halo& halo, const MirrorWall& wall, const Image& image) {
+  return image.sign[wall.axis] < 0 && image.shift[wall.axis] == 2 * place_of(halo, wall);
+}
+
 void follow_walls(Halo& halo, const Scene& scene) {
-  for (const MovingWall& wall : halo.moving) {
+  for (const MirrorWall& wall : halo.moving) {
     place_of(halo, wall) = scene.planes[wall.plane].point[wall.axis];
   }
 }
 
 WallsGone walls_gone(const Halo& halo, const Scene& scene, double dt) {
   WallsGone gone;
-  for (const MovingWall& wall : halo.moving) {
+  for (const MirrorWall& wall : halo.moving) {
     const Plane& plane = scene.planes[wall.plane];
     const double now = plane.point[wall.axis] + dt * plane.velocity[wall.axis];
     (wall.lower ? gone.low : gone.high)[wall.axis] = now - place_of(halo, wall);
@@ -41,7 +40,7 @@ WallsGone walls_gone(const Halo& halo, const Scene& scene, double dt) {
 
 Vec3 WallsGone::of_image(const Halo& halo, const Image& image) const {
   Vec3 gone = Vec3::Zero();
-  for (const MovingWall& wall : halo.moving) {
+  for (const MirrorWall& wall : halo.moving) {
     if (is_behind(halo, wall, image)) gone[wall.axis] = 2 * (wall.lower ? low : high)[wall.axis];
   }
   return gone;
@@ -56,7 +55,7 @@ void move_images(const Halo& halo, Scene& scene) {
   for_kinds(halo, 0, halo.n_ghosts(), [&](const Image& image, Index first, Index last) {
     Vec3 v_walls = Vec3::Zero();
     bool behind = false;
-    for (const MovingWall& wall : halo.moving) {
+    for (const MirrorWall& wall : halo.moving) {
       if (!is_behind(halo, wall, image)) continue;
       behind = true;
       v_walls[wall.axis] = 2 * scene.planes[wall.plane].velocity[wall.axis];
@@ -73,7 +72,7 @@ void move_images(const Halo& halo, Scene& scene) {
   });
 }
 
-double force_of_images(const SphState& sph, const Scene& scene, const MovingWall& wall) {
+double force_of_images(const SphState& sph, const Scene& scene, const MirrorWall& wall) {
   const Line* x = scene.nodes.x.data() + scene.particles.begin;
   const double reach = sph.kernel.reach();
   const Index n = scene.particles.size();

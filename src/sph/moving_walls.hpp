@@ -9,6 +9,9 @@
 
 namespace gannet {
 
+/// Whether images of this kind are mirrored by the wall.
+bool is_behind(const Halo& halo, const MirrorWall& wall, const Image& image);
+
 /// Takes over where the planes are, before images are made.
 void follow_walls(Halo& halo, const Scene& scene);
 
@@ -28,6 +31,6 @@ void move_images(const Halo& halo, Scene& scene);
 
 /// Pressure of the images behind a moving wall on the water, along the axis of the wall [N]: the
 /// pressure terms of the particle pair pass, over the neighbour lists.
-double force_of_images(const SphState& sph, const Scene& scene, const MovingWall& wall);
+double force_of_images(const SphState& sph, const Scene& scene, const MirrorWall& wall);
 
 }  // namespace gannet

@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "search/spatial_sort.hpp"
 #include "sph/moving_walls.hpp"
+#include "sph/sticking_walls.hpp"
 
 namespace gannet {
 
@@ -32,6 +33,7 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   });
   copy_out(halo, scene);
   move_images(halo, scene);
+  stick_images(halo, scene);
   build_cluster_list(sph.x_build, n_seen, reach(sph), sph.list, isa(), {n_seen, n});
   if (scene.resting.n > 0) sph.list.n_active = scene.awake().size() / ClusterList::lanes;
   start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age, {n_seen, n});

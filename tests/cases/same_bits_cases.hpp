@@ -89,7 +89,7 @@ output: {until: 10 s, checkpoint: never}
 )";
 
 /// A tank that a piston, a lid in sway and gravity in time shake, 100 x 40 particles: formulas, a
-/// curve, mirrors that move, a plane that turns.
+/// curve, mirrors that move and that water sticks to, a plane that turns.
 inline const std::string shaken_tank = R"case(gannet: 1
 dimension: 2
 let: {A: 20 mm, w: 30 rad/s}
@@ -103,10 +103,10 @@ parts:
     initial_velocity: ["0.2*sin(pi*x)", 0, 0]
     initial_pressure: "50*cos(pi*x)"
 boundaries:
-  piston: {planes: {x: 0}, motion: {velocity: ["A*w*cos(w*t)", 0, 0]}}
+  piston: {planes: {x: 0}, slip: none, motion: {velocity: ["A*w*cos(w*t)", 0, 0]}}
   end: {plane: {point: [1 m, 0, 0], normal: [-1, 0, 0]}, motion: {displacement: ["A*sin(w*t)^2", 0, 0]}}
   flap: {plane: {point: [1.02 m, 0, 0], normal: [-1, 0, 0]}, motion: {rotation: {axis: [0, 0, 1], centre: [1 m, 0, 0], rate: "0.5*sin(w*t)"}}}
-  floor: {planes: {y: 0}}
+  floor: {planes: {y: 0}, slip: none}
 loads: {gravity: ["pulse(t)", -9.81 m/s^2, 0]}
 effects: {viscosity: {type: monaghan, alpha: 0.1}, xsph: {epsilon: 0.5}}
 output: {until: 10 s, checkpoint: never}

@@ -8,6 +8,7 @@
 #include "pool.hpp"
 #include "scene/draft.hpp"
 #include "sph/moving_walls.hpp"
+#include "sph/sticking_walls.hpp"
 
 using namespace gannet;
 
@@ -275,4 +276,34 @@ TEST_CASE("halo: images go with a wall that moves, and get its velocity twice", 
   follow_walls(halo, scene);
   CHECK(halo.low.x() == 0.03);
   CHECK(walls_gone(halo, scene, 0).low.x() == 0);
+}
+
+TEST_CASE("halo: images behind walls that water sticks to go the other way", "[sph]") {
+  Three three({{0.1, 0.1, 0}, {0.9, 0.5, 0}, {0.5, 0.5, 0}});
+  Scene& scene = three.scene;
+  Plane side{"side", {0, 0, 0}, {1, 0, 0}, {}};
+  side.moves = true;
+  side.velocity = {5, 7, 0};
+  scene.planes = {side};
+  Halo halo;
+  halo.wall_low = {true, true, false};
+  halo.wall_high = {true, false, false};
+  halo.low = {0, 0, 0};
+  halo.high = {1, 1, 0};
+  halo.sticking = {{0, true, 0}};
+  for (Index i = 0; i < 3; ++i) scene.nodes.v[i] = {2, 3, 0, 0.5};
+  choose_images(scene.nodes.x.data(), 3, 0.2, halo);
+  resize_ghosts(halo, scene);
+  copy_out(halo, scene);
+  stick_images(halo, scene);
+  REQUIRE(scene.nodes.n_ghosts == 4);
+  for (Index g = 0; g < 4; ++g) {
+    const Image& image = halo.image_of(g);
+    const Vec3 v = xyz(scene.nodes.v[3 + g]);
+    const bool behind_side = image.sign.x() < 0 && image.shift.x() == 0;
+    if (!behind_side && image.sign.x() < 0) CHECK(v == Vec3(-2, 3, 0));
+    if (!behind_side && image.sign.x() > 0) CHECK(v == Vec3(2, -3, 0));
+    // 2 v_wall - v; in the corner the floor mirrors that.
+    if (behind_side) CHECK(v == Vec3(8, image.sign.y() < 0 ? -11 : 11, 0));
+  }
 }
