@@ -11,7 +11,7 @@ namespace gannet {
 
 namespace {
 
-double reach(const SphState& sph) { return sph.kernel.reach() + sph.skin; }
+double reach(const SphState& sph) { return sph.kernel.reach() + sph.skin.width; }
 
 /// Images and list for the positions x_build of the owned particles; everything
 /// that is a function of x_build, so that a restart finds the same.
@@ -36,7 +36,7 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   stick_images(halo, scene);
   build_cluster_list(sph.x_build, n_seen, reach(sph), sph.list, isa(), {n_seen, n});
   if (scene.resting.n > 0) sph.list.n_active = scene.awake().size() / ClusterList::lanes;
-  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin, sph.dx, sph.age, {n_seen, n});
+  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin.width, sph.dx, sph.age, {n_seen, n});
   ++sph.n_builds;
 }
 
@@ -120,7 +120,7 @@ bool image_is_missing(const SphState& sph, Index n, const Motion& motion, const 
 /// The same of all cells. Only who moved towards a wall by the skin can have come that near.
 bool image_is_missing(const SphState& sph, Index n, const Motion& motion, const WallsGone& gone) {
   const Halo& halo = sph.halo;
-  const double least = (1 - 1e-6) * sph.skin;
+  const double least = (1 - 1e-6) * sph.skin.width;
   const auto moved = [&](const MotionBox& box) {
     for (std::size_t d = 0; d < 3; ++d) {
       const auto k = static_cast<Eigen::Index>(d);
@@ -159,9 +159,18 @@ void rebuild_lists(SphState& sph, Scene& scene) {
     std::copy(x + begin, x + end, sph.x_build.data() + begin);
   });
   build_from_x_build(sph, scene);
+  sph.skin.steps = 0;
 }
 
 void restore_lists(SphState& sph, Scene& scene) { build_from_x_build(sph, scene); }
+
+void renew_lists(SphState& sph, Scene& scene, double dt_half) {
+  if (lists_are_stale(sph, scene, dt_half)) {
+    adapt(sph.skin, sph.dx);
+    rebuild_lists(sph, scene);
+  }
+  ++sph.skin.steps;
+}
 
 bool lists_are_stale(SphState& sph, const Scene& scene, double dt_half) {
   const Index n = scene.particles.size();

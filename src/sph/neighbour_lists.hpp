@@ -14,6 +14,10 @@ void rebuild_lists(SphState& sph, Scene& scene);
 /// The same lists again from x_build, without sorting: for a restart, after the fields were read.
 void restore_lists(SphState& sph, Scene& scene);
 
+/// Rebuilds the lists where they may miss a pair at the end of the step, with a skin that follows
+/// from how long the last ones were right; counts the step. Once a step, with half of it to go.
+void renew_lists(SphState& sph, Scene& scene, double dt_half);
+
 /// True where the lists may miss a pair at the end of the step (see sph/list_age.hpp).
 /// dt_half: what is left of the step [s]; particles are expected to move on by v dt_half, and with
 /// XSPH by 2 X dt_half with the X of the last step. Depends on x, v, X and x_build alone.

@@ -141,7 +141,7 @@ void make_cells(const Keys& root, Rest& rest, const SphState& sph, const Scene& 
     low[k] = sph.halo.low[k];
     high[k] = sph.halo.high[k];
   }
-  rest.cells = cells_over(low, high, sph.kernel.reach() + sph.skin, sph.halo.periodic,
+  rest.cells = cells_over(low, high, sph.kernel.reach() + sph.skin.most, sph.halo.periodic,
                           std::max<Index>(4096, scene.particles.size()));
   const auto n = static_cast<std::size_t>(rest.cells.size());
   rest.disturbed_at.assign(n, 0);

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "mesh/fill.hpp"
 #include "scene/particle_material.hpp"
+#include "scene/tracked_values.hpp"
 #include "sph/effects.hpp"
 #include "sph/neighbour_lists.hpp"
 #include "sph/sph_operations.hpp"
@@ -20,41 +21,42 @@ namespace {
 
 Schema schema() {
   Key sph{.name = "sph", .kind = Kind::map, .text = "the part is made of particles"};
-  sph.keys = {{.name = "material",
-               .kind = Kind::reference,
-               .text = "the fluid",
-               .required = true,
-               .refers_to = "materials"},
-              {.name = "spacing",
-               .unit = dim::length,
-               .text = "distance of neighbouring particles",
-               .required = true,
-               .limits = positive()},
-              {.name = "kernel",
-               .kind = Kind::choice,
-               .text = "smoothing kernel",
-               .fallback = "cubic_spline",
-               .choices = {"cubic_spline", "wendland_c2", "wendland_c4", "quintic_spline"}},
-              {.name = "smoothing_ratio",
-               .text = "smoothing length h over spacing (1.3, 1.5, 1.7, 1 for these kernels)",
-               .limits = between(0.9, 3)},
-              {.name = "precision",
-               .kind = Kind::choice,
-               .text = "arithmetic of pairs; the state is in double precision",
-               .fallback = "double",
-               .choices = {"double", "single"}},
-              {.name = "cfl",
-               .text = "time step times speed of sound over h, before viscosity",
-               .fallback = "0.7",
-               .limits = between(0.01, 1.5)},
-              {.name = "skin",
-               .text = "how much further than 2 h neighbour lists reach, over spacing",
-               .fallback = "0.26",
-               .limits = between(0.02, 2)},
-              {.name = "sound_speed_check",
-               .kind = Kind::flag,
-               .text = "whether to warn where the flow becomes too fast for the speed of sound",
-               .fallback = "on"}};
+  sph.keys = {
+      {.name = "material",
+       .kind = Kind::reference,
+       .text = "the fluid",
+       .required = true,
+       .refers_to = "materials"},
+      {.name = "spacing",
+       .unit = dim::length,
+       .text = "distance of neighbouring particles",
+       .required = true,
+       .limits = positive()},
+      {.name = "kernel",
+       .kind = Kind::choice,
+       .text = "smoothing kernel",
+       .fallback = "cubic_spline",
+       .choices = {"cubic_spline", "wendland_c2", "wendland_c4", "quintic_spline"}},
+      {.name = "smoothing_ratio",
+       .text = "smoothing length h over spacing (1.3, 1.5, 1.7, 1 for these kernels)",
+       .limits = between(0.9, 3)},
+      {.name = "precision",
+       .kind = Kind::choice,
+       .text = "arithmetic of pairs; the state is in double precision",
+       .fallback = "double",
+       .choices = {"double", "single"}},
+      {.name = "cfl",
+       .text = "time step times speed of sound over h, before viscosity",
+       .fallback = "0.7",
+       .limits = between(0.01, 1.5)},
+      {.name = "skin",
+       .text = "how much further than 2 h neighbour lists reach, over spacing; where absent it "
+               "follows the motion, within 0.1 and 0.5",
+       .limits = between(0.02, 2)},
+      {.name = "sound_speed_check",
+       .kind = Kind::flag,
+       .text = "whether to warn where the flow becomes too fast for the speed of sound",
+       .fallback = "on"}};
   const Key start{.name = "start",
                   .kind = Kind::choice,
                   .text =
@@ -198,6 +200,8 @@ void track_fields(SphState& sph, Scene& scene) {
   track(plain_field("drho_dt", "kg/(m^3 s)", "", over, sph.drho_dt, 1, GhostRule::none));
   track(plain_field("h", "m", "SmoothingLength", over, sph.smoothing_length, 1, GhostRule::copy));
   track(line_field("x_build", "m", "", over, sph.x_build, 0, 3, GhostRule::none));
+  track_values(scene, "sph", "list.skin", "m", 1, [&sph] { return &sph.skin.width; });
+  track_values(scene, "sph", "list.steps", "", 1, [&sph] { return &sph.skin.steps; });
 }
 
 /// Density and pressure of one part at the start.
@@ -248,6 +252,13 @@ void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& 
   }
 }
 
+/// What the case says, or bounds and a start for what is chosen.
+ListSkin skin_of(const Keys& sph, double dx) {
+  if (!sph.has("skin")) return {.width = 0.26 * dx, .least = 0.1 * dx, .most = 0.5 * dx};
+  const double width = sph.number("skin") * dx;
+  return {.width = width, .least = width, .most = width};
+}
+
 void make_state(const Keys& root, Scene& scene) {
   const std::vector<Keys> parts = sph_parts(root);
   if (parts.empty() || scene.particles.empty()) return;
@@ -260,7 +271,7 @@ void make_state(const Keys& root, Scene& scene) {
   sph.h = ratio * sph.dx;
   sph.kernel = {kernel, scene.dimension, sph.h};
   sph.packed.single = first.word("precision") == "single";
-  sph.skin = first.number("skin") * sph.dx;
+  sph.skin = skin_of(first, sph.dx);
   sph.cfl = first.number("cfl");
   sph.limits = lattice_limits(kernel, scene.dimension, ratio);
   read_materials(root, parts, sph, scene);

@@ -145,18 +145,20 @@ void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
             .smallest = [&](std::size_t n) { return smallest_votes(sph, scene, n); }});
 }
 
+std::string skin_in_words(const ListSkin& skin) {
+  if (skin.least == skin.most) return fmt::format("{:.3g} m", skin.width);
+  return fmt::format("{:.3g} to {:.3g} m by how fast that is", skin.least, skin.most);
+}
+
 void add_lists(SphState& sph, Scene& scene, Plan& plan) {
   plan.add({.name = "neighbour lists",
-            .reason = fmt::format("rule: made anew when neighbours may have moved by the skin of "
-                                  "{:.3g} m, relative to each other",
-                                  sph.skin),
+            .reason = "rule: made anew when neighbours may have moved by the skin of the lists, " +
+                      skin_in_words(sph.skin) + ", relative to each other",
             .stage = Stage::half_drift,
             .reads = {"x", "v"},
             .writes = {"x_build", "order of particles"},
             .owns = {"x_build"},
-            .run = [&](const Step& step) {
-              if (lists_are_stale(sph, scene, 0.5 * step.dt)) rebuild_lists(sph, scene);
-            }});
+            .run = [&](const Step& step) { renew_lists(sph, scene, 0.5 * step.dt); }});
 }
 
 void add_rates(SphState& sph, Scene& scene, Plan& plan, const std::string& reason) {

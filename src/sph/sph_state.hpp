@@ -13,6 +13,7 @@
 #include "search/cluster_list.hpp"
 #include "sph/halo.hpp"
 #include "sph/list_age.hpp"
+#include "sph/list_skin.hpp"
 #include "sph/pair_pass.hpp"
 #include "sph/stable_step.hpp"
 
@@ -46,7 +47,7 @@ struct SphState {
   double h = 0;                ///< smoothing length [m]
   SmoothingKernel kernel;      ///< of that smoothing length
   double m = 0;                ///< mass of a particle [kg]; in 2D per metre of thickness
-  double skin = 0;             ///< how much further than 2 h the lists reach [m]
+  ListSkin skin;               ///< how much further than 2 h the lists reach
   double cfl = 0;              ///< time step over (h/c), before viscosity [-]
   double c0 = 0;               ///< largest speed of sound of the parts [m/s]
   double rho0 = 0;             ///< largest reference density of the parts [kg/m^3]

@@ -89,3 +89,19 @@ TEST_CASE("list age: no motion may hide a pair that came within the support_radi
   CHECK(n_good > 5);
   CHECK(n_good < 60);
 }
+
+TEST_CASE("list skin: follows the motion of a step, within its bounds", "[sph]") {
+  // s = sqrt(1.5 u dx), u = width/steps.
+  ListSkin skin{.width = 0.2, .least = 0.1, .most = 0.5, .steps = 5};
+  adapt(skin, 1);
+  CHECK(skin.width == Approx(std::sqrt(1.5 * 0.04)));
+  skin = {.width = 0.2, .least = 0.1, .most = 0.5, .steps = 0};  // old before they were used
+  adapt(skin, 1);
+  CHECK(skin.width == 0.5);
+  skin = {.width = 0.2, .least = 0.1, .most = 0.5, .steps = 1000};
+  adapt(skin, 1);
+  CHECK(skin.width == 0.1);
+  skin = {.width = 0.3, .least = 0.3, .most = 0.3, .steps = 2};  // said by the case
+  adapt(skin, 1);
+  CHECK(skin.width == 0.3);
+}

@@ -97,10 +97,12 @@ struct Pool {
   }
 };
 
-/// The entries of owned nodes and particles in every field that a checkpoint holds, by name.
+/// The entries of owned nodes and particles, and of the whole scene, in every field that a
+/// checkpoint holds, by name.
 using Saved = std::map<std::string, std::vector<std::byte>>;
 
 inline Index owned_entries(const Scene& scene, const Field& field) {
+  if (field.over == Over::scene) return field.count();
   return field.over == Over::nodes ? scene.nodes.n_owned : scene.particles.size();
 }
 

@@ -88,7 +88,7 @@ TEST_CASE("rest: particles that move against each other may rest, water that flo
     for (const bool opposed : {true, false}) {
       Pool pool(far_apart, 2, Vec3::Zero(), [&](Scene& scene) {
         const SphState& sph = scene.store.get<SphState>();
-        const double edge = sph.kernel.reach() + sph.skin;
+        const double edge = sph.kernel.reach() + sph.skin.most;
         for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
           const Index k = scene.nodes.id[i] - scene.nodes.id[scene.particles.begin];
           const double cell = k < 2 ? 0.0 : 3.0 * (k / 2) + 0.5;
