@@ -59,6 +59,7 @@ std::vector<Effect> make_table() {
       cable_effect(),              //
       beam_effect(),               //
       mass_scaling_effect(),       // what those elements have made of it
+      displaced_fill_effect(),     // when all parts have their points
       plane_contact_effect(),      //
       contacts_effect(),           //
       pressure_effect(),           //

@@ -58,6 +58,9 @@ Effect periodic_effect();
 /// which directions repeat, and after the effects that make planes and their measures.
 Effect mirror_walls_effect();
 
+/// parts.NAME.fill.outside: no particles where bodies are. Stands after all that make parts.
+Effect displaced_fill_effect();
+
 /// probes.NAME.flow: water through a plane. Stands before `sph_probes`, which keeps its gauges.
 Effect flow_probes_effect();
 
