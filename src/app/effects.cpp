@@ -58,7 +58,9 @@ std::vector<Effect> make_table() {
       solid_effect(),              //
       cable_effect(),              //
       beam_effect(),               //
+      rigid_bodies_effect(),       // takes the masses of the elements, and gathers their forces
       mass_scaling_effect(),       // what those elements have made of it
+      rigid_surface_effect(),      //
       displaced_fill_effect(),     // when all parts have their points
       plane_contact_effect(),      //
       contacts_effect(),           //

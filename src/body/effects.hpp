@@ -41,6 +41,10 @@ Effect element_relaxation_effect();
 /// parts.NAME.damping: in proportion to mass, of one part of elements. Stands where `sponge` does.
 Effect part_damping_effect();
 
+/// bodies.NAME: {parts, mass, motion, ...}: parts that move as one rigid body. Stands after the
+/// effects that make parts of elements.
+Effect rigid_bodies_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 

@@ -63,6 +63,10 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   Nodes& nodes = scene.nodes;
   for (PartDamping& one : scene.store.get<PartDampings>().list) {
     const std::string& name = scene.parts[static_cast<std::size_t>(one.part)].name;
+    if (scene.parts[static_cast<std::size_t>(one.part)].rigid) {
+      root.map("parts").map(name).complain("damping", "has no meaning: the part is rigid");
+      continue;
+    }
     ElementRelaxation& d = one.damping;
     const std::string reason = asked_for_at(root.map("parts").map(name).where("damping"));
     Plan& plan = models.of_node(d.nodes.begin).plan;

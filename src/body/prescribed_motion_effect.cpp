@@ -6,6 +6,7 @@
 
 #include "body/effects.hpp"
 #include "body/prescribed_motion.hpp"
+#include "scene/followers.hpp"
 #include "scene/node_set.hpp"
 
 namespace gannet {
@@ -156,7 +157,8 @@ void state(const Keys& root, Scene& scene) {
 }
 
 /// A node that no force can move cannot be held by one.
-void check_masses(const Keys& root, const PrescribedMotion& motion, const Nodes& nodes) {
+void check_masses(const Keys& root, const PrescribedMotion& motion, const Nodes& nodes,
+                  const Followers& followers) {
   for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(motion.nodes[k]);
     const bool moved = (motion.mask[k] & 0b111) == 0 || nodes.v[i].w > 0;
@@ -165,7 +167,10 @@ void check_masses(const Keys& root, const PrescribedMotion& motion, const Nodes&
     root.map("boundaries")
         .map(motion.name)
         .complain("nodes",
-                  "a node of the set has no mass of its own and cannot be moved by itself");
+                  followers.leader_of(motion.nodes[k]) >= 0
+                      ? "a node of the set belongs to a rigid body and cannot be moved by itself; "
+                        "say it under `motion` of the body"
+                      : "a node of the set has no mass of its own and cannot be moved by itself");
     return;
   }
 }
@@ -174,7 +179,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<PrescribedMotions>()) return;
   for (PrescribedMotion& motion : scene.store.get<PrescribedMotions>().list) {
     if (motion.mask.size() != motion.nodes.size()) continue;
-    check_masses(root, motion, scene.nodes);
+    check_masses(root, motion, scene.nodes, scene.store.get<Followers>());
     add_prescribed_motion(motion, scene, models);
   }
 }

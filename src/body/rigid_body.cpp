@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
 #include "plan/effect.hpp"
+#include "scene/followers.hpp"
 
 namespace gannet {
 
@@ -31,6 +34,7 @@ Vec3 torque_on_member(const Nodes& nodes, std::size_t i, const Vec3& centre) {
 
 /// Gathers what acts on the members to the centre, in their order.
 void gather(RigidBody& body, Nodes& nodes) {
+  body.omega_old = xyz(nodes.omega[static_cast<std::size_t>(body.node)]);
   const auto c = static_cast<std::size_t>(body.node);
   const Vec3 centre = xyz(nodes.x[c]);
   Vec3 force = xyz(nodes.f[c]);
@@ -42,6 +46,8 @@ void gather(RigidBody& body, Nodes& nodes) {
   }
   set_xyz(nodes.f[c], force);
   set_xyz(nodes.torque[c], torque);
+  body.force = force;
+  body.moment = torque;
 }
 
 [[noreturn]] void fail(const RigidBody& body, const Step& step) {
@@ -52,14 +58,48 @@ void gather(RigidBody& body, Nodes& nodes) {
        "look for forces that grow without bound on its nodes"});
 }
 
+/// Gives the centre what is given of its velocity, after the free kick.
+void guide_centre(RigidBody& body, Nodes& nodes, const Step& step) {
+  const auto c = static_cast<std::size_t>(body.node);
+  body.reaction.setZero();
+  for (int d = 0; d < 3; ++d) {
+    if ((body.motion.mask >> d & 1u) == 0) continue;
+    Vec3 v = xyz(nodes.v[c]);
+    const double wanted =
+        mean_over(body.motion.rate[static_cast<std::size_t>(d)], step.t, step.t + step.dt);
+    body.reaction[d] = (wanted - v[d]) / (nodes.v[c].w * body.dt_kick);
+    v[d] = wanted;
+    set_xyz(nodes.v[c], v);
+  }
+  add_xyz(nodes.f[c], body.reaction);
+}
+
+/// Rotation over the step to come, after L received the moment of the forces.
+FreeRotation turn_body(RigidBody& body, const Quaternion& q, const Step& step) {
+  body.couple.setZero();
+  const unsigned mask = body.motion.mask >> 3;
+  if (mask == 0) return rotate_freely(q, body.L, body.inverse_inertia, step.dt);
+  Vec3 wanted = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    if ((mask >> d & 1u) == 0) continue;
+    wanted[d] =
+        mean_over(body.motion.rate[static_cast<std::size_t>(d) + 3], step.t, step.t + step.dt);
+  }
+  const Vec3 free = body.L;
+  const FreeRotation result = rotate_guided(q, body.inertia, mask, wanted, step.dt, body.L);
+  body.couple = (body.L - free) / body.dt_kick;
+  return result;
+}
+
 void kick(RigidBody& body, Nodes& nodes, const Step& step) {
   const auto c = static_cast<std::size_t>(body.node);
   body.dt_kick = 0.5 * (step.dt_old + step.dt);
-  body.torque = xyz(nodes.torque[c]);
-  body.L += body.dt_kick * body.torque;
+  guide_centre(body, nodes, step);
+  body.L += body.dt_kick * body.moment;
   const Quaternion q = quaternion_of(body.q);
-  const FreeRotation turn = rotate_freely(q, body.L, body.inverse_inertia, step.dt);
+  const FreeRotation turn = turn_body(body, q, step);
   if (!turn.settled) fail(body, step);
+  body.torque = body.moment + body.couple;
   body.q_next = turn.q;
   set_xyz(nodes.omega[c], turn.omega);
   const Vec3 v_centre = xyz(nodes.v[c]);
@@ -102,6 +142,20 @@ void enlist_members(RigidBody& body, Nodes& nodes, const Vec3& omega) {
     if (!nodes.rotating.contains(member)) continue;
     nodes.omega[i] = {omega.x(), omega.y(), omega.z(), 0};
     nodes.torque[i].w = 0;
+  }
+}
+
+/// Notes whom the members follow, and how easily they are moved.
+void note_followers(Scene& scene, const RigidBody& body, double mass) {
+  auto& followers = scene.store.get<Followers>();
+  const auto n = static_cast<std::size_t>(scene.nodes.n_owned);
+  followers.leader.resize(n, -1);
+  followers.inverse_mass.resize(n, 0);
+  const double softest = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).eigenvalues()[0];
+  for (std::size_t k = 0; k < body.members.size(); ++k) {
+    const auto i = static_cast<std::size_t>(body.members[k]);
+    followers.leader[i] = body.node;
+    followers.inverse_mass[i] = 1 / mass + body.arms[k].squaredNorm() / softest;
   }
 }
 
@@ -148,6 +202,44 @@ FreeRotation rotate_freely(const Quaternion& q, const Vec3& L, const Mat3& inver
   return {q, Vec3::Zero(), 30, false};
 }
 
+FreeRotation rotate_guided(const Quaternion& q, const Mat3& inertia, unsigned mask,
+                           const Vec3& wanted, double dt, Vec3& L) {
+  const Mat3 A = q.toRotationMatrix();
+  const double angle = 0.5 * dt * wanted.norm();
+  const Vec3 target = angle > 0 ? Vec3(wanted * (std::tan(angle) / angle)) : wanted;
+  Vec3 Omega = A.transpose() * target;
+  const auto momentum = [&](const Vec3& w) -> Vec3 {
+    const Vec3 Pi = inertia * w;
+    return A * (Pi - 0.5 * dt * Pi.cross(w));
+  };
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 1; round <= 30; ++round) {
+    const Mat3 turned = cross_matrix(inertia * Omega) - cross_matrix(Omega) * inertia;
+    Mat3 slope = A * (inertia - 0.5 * dt * turned);
+    Vec3 residual = momentum(Omega) - L;
+    for (int d = 0; d < 3; ++d) {
+      if ((mask >> d & 1u) == 0) continue;
+      slope.row(d) = A.row(d);
+      residual[d] = A.row(d).dot(Omega) - target[d];
+    }
+    const Vec3 change = slope.inverse() * residual;
+    const double size = change.norm();
+    Omega -= change;
+    const double scale = Omega.norm();
+    if (size <= 1e-15 * scale || (size <= 1e-13 * scale && size >= last)) {
+      const Vec3 result = momentum(Omega);
+      for (int d = 0; d < 3; ++d) {
+        if ((mask >> d & 1u) != 0) L[d] = result[d];
+      }
+      const Vec3 half = 0.5 * dt * Omega;
+      return {(q * Quaternion(1, half.x(), half.y(), half.z())).normalized(), A * Omega, round,
+              true};
+    }
+    last = size;
+  }
+  return {q, Vec3::Zero(), 30, false};
+}
+
 RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input) {
   Nodes& nodes = scene.nodes;
   assert(nodes.rotating.contains(input.node) && input.mass > 0);
@@ -157,6 +249,7 @@ RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input) {
   body.node = input.node;
   body.members = input.members;
   body.inertia = input.inertia;
+  body.motion = input.motion;
   body.inverse_inertia = input.inertia.inverse();
   const Quaternion q = input.q.normalized();
   body.q = q.coeffs();
@@ -169,6 +262,7 @@ RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input) {
   nodes.omega[c] = {input.omega.x(), input.omega.y(), input.omega.z(), 0};
   nodes.torque[c].w = 0;
   enlist_members(body, nodes, input.omega);
+  note_followers(scene, body, input.mass);
   track(scene, body.name, "q", "", body.q.data(), 4);
   track(scene, body.name, "L", "kg m^2/s", body.L.data(), 3);
   return body;
@@ -179,6 +273,25 @@ double rotation_energy(const RigidBody& body, double dt) {
   const Vec3 Pi = quaternion_of(body.q).conjugate() * L;
   return 0.5 * Pi.dot(body.inverse_inertia * Pi);
 }
+
+Vec3 angular_velocity_at_level(const RigidBody& body, double dt) {
+  const Quaternion q = quaternion_of(body.q);
+  const Vec3 L = body.L - 0.5 * dt * body.torque;
+  return q * (body.inverse_inertia * (q.conjugate() * L));
+}
+
+namespace {
+
+/// Work of what the given motion takes at level n.
+Work work_of_motion(const RigidBody& body, const Nodes& nodes, const Step& step) {
+  WorkPath turned;
+  turned.col(0) = 0.5 * step.dt_old * body.omega_old;
+  turned.col(1) = 0.5 * step.dt * xyz(nodes.omega[static_cast<std::size_t>(body.node)]);
+  return work_along(work_path(nodes, body.node, step), body.reaction) +
+         work_along(turned, body.couple);
+}
+
+}  // namespace
 
 void add_rigid_body_operations(Scene& scene, Model& model, Ledger& ledger, RigidBody& body) {
   Nodes& nodes = scene.nodes;
@@ -199,6 +312,12 @@ void add_rigid_body_operations(Scene& scene, Model& model, Ledger& ledger, Rigid
   LedgerEntry& energy = ledger.entry("kinetic of rotation", body.name);
   add("energy of rotation", Stage::look,
       [&](const Step& step) { energy.value = rotation_energy(body, step.dt); });
+  if (body.motion.mask != 0) {
+    LedgerEntry& work = ledger.entry("prescribed motion", body.name);
+    work.external = true;
+    add("work of the given motion", Stage::look,
+        [&](const Step& step) { work.add_work(work_of_motion(body, nodes, step)); });
+  }
   add("release members", Stage::half_drift, [&](const Step&) { release_members(body, nodes); });
   add("place members", Stage::drift, [&](const Step&) { place_members(body, nodes); });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -202,14 +203,17 @@ void warn_of_offset(Scene& scene, const Keys& keys, int part, double offset) {
 void set_law(Scene& scene, const Keys& keys, NodeToSegment& c) {
   const auto water = entry_of(scene.store.get<ParticleMaterials>().of_part, c.particle_part);
   const auto shell = entry_of(scene.store.get<SurfaceData>().of_part, c.surface_part);
-  assert(water.spacing > 0 && water.c0 > 0 && shell.thickness > 0 && shell.young > 0);
+  const bool rigid = scene.parts[static_cast<std::size_t>(c.surface_part)].rigid;
+  assert(water.spacing > 0 && water.c0 > 0);
+  assert(rigid || (shell.thickness > 0 && shell.young > 0));
   const double d = keys.number_or("thickness", 0.5 * (shell.thickness + water.spacing));
   if (!keys.has("thickness")) warn_of_offset(scene, keys, c.surface_part, shell.offset);
   c.range = GapRange::of(d);
   c.surface.gone = shell.gone;
   const double rate = water.c0 / water.spacing;
   c.law.rate2 = keys.number("stiffness") * rate * rate;
-  c.law.stiffest = share_of_membrane * shell.young * shell.thickness;
+  c.law.stiffest = rigid ? std::numeric_limits<double>::infinity()
+                         : share_of_membrane * shell.young * shell.thickness;
   c.law.friction = keys.number("friction");
   c.law.damping = keys.number("damping");
 }
@@ -276,6 +280,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     add_node_to_segment(scene, c, model, models.ledger);
   }
   for (NodesOnPlanes& c : scene.store.get<NodesOnPlanesList>().list) {
+    const Part& part = scene.parts[static_cast<std::size_t>(c.part)];
+    if (part.rigid) {
+      contacts.map(c.name).complain(
+          "between", fmt::format("part '{}' is rigid; contact of rigid parts with planes is not "
+                                 "built yet",
+                                 part.name));
+      continue;
+    }
     add_nodes_on_planes(contacts.map(c.name), c, scene, models);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 #include "base/parallel.hpp"
 
@@ -33,6 +34,21 @@ Vec3 relative_velocity(const ContactInput& in, std::size_t row) {
     return xyz(in.nodes->v[static_cast<std::size_t>(surface.node[i])]);
   });
   return xyz(in.nodes->v[node_of_row(in, row)]) - foot;
+}
+
+/// Raises the rate to that of the bodies that surface nodes belong to.
+void consider_bodies(const ContactInput& in, std::span<const double> stiffness, ContactRate& rate) {
+  if (in.followers == nullptr || in.followers->leader.empty()) return;
+  std::map<Index, double> omega2;  // by leader
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const Index node = in.surface->node[i];
+    const Index leader = in.followers->leader_of(node);
+    if (leader < 0) continue;
+    omega2[leader] += 2 * stiffness[i] * in.followers->inverse_mass[static_cast<std::size_t>(node)];
+  }
+  for (const auto& [leader, value] : omega2) {
+    if (value > rate.omega2) rate = {value, leader};
+  }
 }
 
 }  // namespace
@@ -130,6 +146,7 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     consider(stiffness[i], static_cast<std::size_t>(in.surface->node[i]));
   }
+  consider_bodies(in, stiffness, rate);
   return rate;
 }
 

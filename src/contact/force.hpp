@@ -11,6 +11,7 @@
 #include "contact/gap.hpp"
 #include "contact/surface.hpp"
 #include "plan/plan.hpp"
+#include "scene/followers.hpp"
 #include "scene/scene.hpp"
 #include "search/segment_search.hpp"
 
@@ -60,7 +61,8 @@ struct ContactInput {
   const Surface* surface = nullptr;
   const SegmentCandidates* candidates = nullptr;
   std::span<const Gap> gaps;
-  double dt_old = 0;  ///< step before this level [s]
+  double dt_old = 0;                     ///< step before this level [s]
+  const Followers* followers = nullptr;  ///< surface nodes that are part of something heavier
 };
 
 /// Forces of all rows. t: tangential spring forces of the particles, updated; empty without
@@ -89,7 +91,11 @@ struct ContactRate {
 /// contact stiffness K = sum k g g^T, g = (n, -N_1 n, ...), has the absolute sum k (1 + sum N) =
 /// 2k, row i of a segment node sum_p k N_i (1 + sum N) = 2 S_i, so
 ///   omega^2 <= max(max_p 2 k_p / m_p, max_i 2 S_i / m_i).
-/// Nodes that forces do not move (1/m = 0) are left out.
+/// Nodes that follow one leader move together, and count as one,
+///   omega^2 <= 2 sum_i S_i w_i,   w_i = 1/M + r_i^2/I_min  (Followers::inverse_mass):
+/// a pair's k (e - b)(e - b)^T, e its point and b what it moves of the body, is at most
+/// 2 k (e e^T + b b^T), and the largest eigenvalue of a sum of b b^T is at most its trace.
+/// Other nodes that forces do not move (1/m = 0) are left out.
 ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
                          std::span<const double> stiffness);
 

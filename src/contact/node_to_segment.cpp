@@ -23,7 +23,8 @@ std::span<const Line> owned(const Scene& scene, const Array<Line>& lines) {
 }
 
 ContactInput input_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
-  return {&scene.nodes, scene.particles, &c.surface, &c.candidates, c.gaps, step.dt_old};
+  return {&scene.nodes, scene.particles, &c.surface, &c.candidates,
+          c.gaps,       step.dt_old,     c.followers};
 }
 
 /// Arrays over rows; they grow only when a list is made.
@@ -180,6 +181,7 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.name = name;
   c.particle_part = particle_part;
   c.surface_part = surface_part;
+  c.followers = &scene.store.get<Followers>();
   c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());

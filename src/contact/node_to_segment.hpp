@@ -27,6 +27,7 @@ struct NodeToSegment {
   Location where;
   int particle_part = -1;
   int surface_part = -1;
+  const Followers* followers = nullptr;  ///< those of the scene
   GapRange range;
   ContactLaw law;
   Surface surface;

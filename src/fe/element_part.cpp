@@ -151,6 +151,7 @@ void add(const ElementWork& work, const Entries& to) {
 
 void add_element_operation(const Keys& root, Scene& scene, Models& models, ElementPart element) {
   const int number = element.part;
+  if (scene.parts[static_cast<std::size_t>(number)].rigid) return;
   const std::string name = scene.parts[static_cast<std::size_t>(number)].name;
   const Entries entries = entries_of(models.ledger, element, name);
   Operation operation{.name = element.kind + " " + name,

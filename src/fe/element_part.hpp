@@ -48,7 +48,8 @@ struct ElementPart {
   std::function<std::vector<ElementStep>(std::size_t)> smallest{};  ///< optional, for `check`
 };
 
-/// Adds the force operation of a part of elements to the plan of its model.
+/// Adds the force operation of a part of elements to the plan of its model; nothing for a part that
+/// is rigid, whose elements are not computed: no force, no vote, no energy.
 void add_element_operation(const Keys& root, Scene& scene, Models& models, ElementPart element);
 
 /// "panel: element 1207 at (0.1, 0.2, 0)"; the name of the part alone where element < 0.

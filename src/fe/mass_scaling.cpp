@@ -179,11 +179,14 @@ double kinetic_energy(const ScaledPart& made, const Nodes& nodes, double dt) {
   });
 }
 
-/// Particles have no elements to make heavier.
+/// Particles have no elements to make heavier, and those of rigid parts are not computed.
 void state(const Keys& root, Scene& scene) {
   for (const Keys& part : parts_with(root, "mass_scaling")) {
     const int number = scene.part_number(part.name());
-    if (number < 0 || !scene.parts[static_cast<std::size_t>(number)].is_particles()) continue;
+    if (number < 0) continue;
+    const Part& of = scene.parts[static_cast<std::size_t>(number)];
+    if (of.rigid) part.complain("mass_scaling", "has no meaning: the part is rigid");
+    if (!of.is_particles()) continue;
     part.complain("mass_scaling", "is for parts of elements; particles have a speed of sound, c0");
   }
 }

@@ -234,6 +234,8 @@ void write_particles(const View& view, const std::string& path) {
 
 int vtk_cell_type(Cell cell) {
   switch (cell) {
+    case Cell::point:
+      return VTK_VERTEX;
     case Cell::line:
       return VTK_LINE;
     case Cell::triangle:

@@ -6,6 +6,8 @@ int nodes_per(Cell cell) {
   switch (cell) {
     case Cell::none:
       return 0;
+    case Cell::point:
+      return 1;
     case Cell::line:
       return 2;
     case Cell::triangle:

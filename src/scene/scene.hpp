@@ -32,7 +32,7 @@ struct Nodes {
   [[nodiscard]] Index size() const { return n_owned + n_ghosts; }
 };
 
-enum class Cell { none, line, triangle, quad, tetrahedron, hexahedron };
+enum class Cell { none, point, line, triangle, quad, tetrahedron, hexahedron };
 int nodes_per(Cell cell);
 
 /// What the user called a part: a range of nodes, and cells over them (none for particles, whose
@@ -44,6 +44,8 @@ struct Part {
   Location where;
   Range nodes;  ///< at the start, for particles
   Cell cell = Cell::none;
+  bool rigid =
+      false;  ///< its elements are not computed: something else moves its nodes, or nothing
   Array<Index> connectivity;    ///< node indices, nodes_per(cell) a cell
   Array<std::int64_t> cell_id;  ///< stable numbers, from 1
   [[nodiscard]] Index n_cells() const;

@@ -177,7 +177,8 @@ bool add_pressure_on_wall(const Keys& gauge, Measure& measure, Scene& scene) {
 void add_pressure_on(const Keys& gauge, Measure measure, Scene& scene) {
   if (add_pressure_on_wall(gauge, measure, scene)) return;
   const int part = scene.part_number(gauge.word("on"));
-  const bool shells = part >= 0 && scene.parts[static_cast<std::size_t>(part)].kind == "shell";
+  const std::string kind = part >= 0 ? scene.parts[static_cast<std::size_t>(part)].kind : "";
+  const bool shells = kind == "shell" || kind == "rigid_surface";
   const SurfacePoint point =
       shells ? nearest_on_part(scene, part, gauge.vector("at")) : SurfacePoint{};
   if (point.n == 0) {

@@ -80,6 +80,10 @@ Sample sea_sample() {
   return {[] { return std::make_unique<WatchedRun>(sea); }, 150, false};
 }
 
+Sample bodies_sample() {
+  return {[] { return std::make_unique<WatchedRun>(bodies); }, 150, false};
+}
+
 Sample solids_sample(const std::string& formulation) {
   std::vector<std::string> set = small_bar;
   set.push_back("parts.rod.solid.formulation=" + formulation);
@@ -353,6 +357,11 @@ TEST_CASE("same bits: output, checkpoints and the end time change nothing in a d
 
 TEST_CASE("same bits: waves over a bed, sponge and relaxation, 1, 2, 3 and 5 threads", "[bits]") {
   check_threads(sea_sample());
+}
+
+TEST_CASE("same bits: rigid bodies, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(bodies_sample());
+  check_restart(bodies_sample());
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

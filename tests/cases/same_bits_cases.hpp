@@ -183,6 +183,32 @@ effects:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// A box that drops askew into a pool of 100 x 30 particles with friction, and one of two parts
+/// that spins above it under a given motion.
+inline const std::string bodies = R"case(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 10 mm, skin: 0.06}
+    fill: {box: {from: [0, 0, 0], to: [1 m, 0.3 m, 0]}, outside: box}
+    start: hydrostatic
+  box:
+    rigid_surface: {}
+    shape: {polyline: {points: [[0.4, 0.27, 0], [0.6, 0.3, 0], [0.6, 0.4, 0], [0.4, 0.37, 0], [0.4, 0.27, 0]], elements: [8, 4, 8, 4]}}
+  left: {rigid_surface: {mass_per_area: 3 kg/m^2}, shape: {line: {from: [0.1, 0.6, 0], to: [0.2, 0.6, 0], elements: 3}}}
+  right: {rigid_surface: {mass_per_area: 2 kg/m^2}, shape: {line: {from: [0.2, 0.6, 0], to: [0.2, 0.7, 0], elements: 3}}}
+bodies:
+  box: {parts: box, density: 400, velocity: [0.3 m/s, -2 m/s, 0], angular_velocity: [0, 0, 3 rad/s]}
+  corner: {parts: [left, right], motion: {velocity: ["sin(9*t)", free, 0], angular_velocity: [0, 0, "5*cos(20*t)"]}}
+boundaries: {tank: {planes: {x: [0, 1 m], y: 0}}}
+contacts: {hull: {between: [pool, box], friction: 0.2}}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+effects: {viscosity: {alpha: 0.1}, xsph: {epsilon: 0.3}}
+probes: {box: {body: box}}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 /// A roof of two slopes that yields as it is dented, 2,000 shells: warped, folded, thinning.
 inline std::string shells(const std::string& formulation) {
   return R"case(gannet: 1
