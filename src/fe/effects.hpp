@@ -26,6 +26,7 @@ Effect beam_effect();
 /// is the elements' own business (scale_masses() in fe/mass_scaling.hpp); this brings the keys, the
 /// entry of the ledger and what `explain` says.
 Effect mass_scaling_effect();
+
 /// parts.NAME.rigid_surface: surfaces that do not deform. Stands after `rigid bodies`, which
 /// carries them.
 Effect rigid_surface_effect();
