@@ -63,14 +63,23 @@ struct BeamPose {
   Vec3 theta_2 = Vec3::Zero();
 };
 
-/// t_1, t_2: triads of the nodes; r: chord [m].
-BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r) {
+/// What the frame of an element follows of the triads of its nodes: both, or the one whose end is
+/// not released.
+double share_of_first(unsigned released) {
+  const bool first = (released & 7U) != 0;
+  const bool second = (released >> 3U) != 0;
+  return first == second ? 0.5 : (first ? 0.0 : 1.0);
+}
+
+/// t_1, t_2: triads of the nodes; r: chord [m]; share: of t_1 in the frame, 0, 1/2 or 1.
+BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r, double share) {
   BeamPose pose;
   pose.l = r.norm();
   pose.e1 = pose.l > 0 ? Vec3(r / pose.l) : Vec3(t_1 * Vec3::UnitX());
   if (t_1.dot(t_2) < 0) t_2.coeffs() *= -1;
   Quaternion mean;
-  mean.coeffs() = t_1.coeffs() + t_2.coeffs();
+  mean.coeffs() = share == 0.5 ? Quaternion::Coefficients(t_1.coeffs() + t_2.coeffs())
+                               : (share == 0 ? t_2 : t_1).coeffs();
   mean.normalize();
   // The smallest rotation that takes the mean axis to the chord.
   const Vec3 axis = mean * Vec3::UnitX();
@@ -131,8 +140,176 @@ void show_forces(BeamBlock& block, Index e, const BeamForces& f, double inverse_
   for (Eigen::Index i = 0; i < 3; ++i) out[3 + i] = middle[i];
 }
 
+/// Turns of released ends in one plane over those of the other end: the ones without moment.
+double follows(const BeamLaw& law, double I, double A_s, double l0) {
+  const BendingStiffness k = bending_of(law, I, A_s, l0);
+  return -k.k2 / k.k4;
+}
+
+/// What of the strain of an element with released ends its section feels.
+struct Releases {
+  bool first[3], second[3];
+  double share[3];  ///< follows(), about y and z
+
+  Releases(const BeamLaw& law, double l0, unsigned bits) {
+    for (unsigned i = 0; i < 3; ++i) {
+      first[i] = (bits >> i & 1U) != 0;
+      second[i] = (bits >> (3 + i) & 1U) != 0;
+    }
+    share[0] = 1;  // no twist
+    share[1] = follows(law, law.section.I_y, law.section.A_z, l0);
+    share[2] = follows(law, law.section.I_z, law.section.A_y, l0);
+  }
+
+  void reduce(BeamStrain& q) const {
+    for (int i = 0; i < 3; ++i) {
+      if (first[i] && second[i]) q.theta_1[i] = q.theta_2[i] = 0;
+      if (first[i] && !second[i]) q.theta_1[i] = share[i] * q.theta_2[i];
+      if (second[i] && !first[i]) q.theta_2[i] = share[i] * q.theta_1[i];
+    }
+  }
+
+  /// The transpose: moments of the reduced strain on the ends.
+  void expand(BeamStress& f) const {
+    for (int i = 0; i < 3; ++i) {
+      if (first[i] && !second[i]) f.m_2[i] += share[i] * f.m_1[i];
+      if (second[i] && !first[i]) f.m_1[i] += share[i] * f.m_2[i];
+      if (first[i]) f.m_1[i] = 0;
+      if (second[i]) f.m_2[i] = 0;
+    }
+  }
+};
+
+BeamStress elastic_stress(const BeamLaw& law, double l0, const BeamStrain& q) {
+  const BeamSection& s = law.section;
+  const BendingStiffness about_y = bending_of(law, s.I_y, s.A_z, l0);
+  const BendingStiffness about_z = bending_of(law, s.I_z, s.A_y, l0);
+  const double T = law.G * s.J / l0 * (q.theta_2.x() - q.theta_1.x());
+  const Vec3 k4(0, about_y.k4, about_z.k4);
+  const Vec3 k2(0, about_y.k2, about_z.k2);
+  return {law.E * s.A * q.u / l0,
+          k4.cwiseProduct(q.theta_1) + k2.cwiseProduct(q.theta_2) - T * Vec3::UnitX(),
+          k2.cwiseProduct(q.theta_1) + k4.cwiseProduct(q.theta_2) + T * Vec3::UnitX()};
+}
+
+double energy_of(const BeamStress& f, const BeamStrain& q) {
+  return 0.5 * (f.N * q.u + f.m_1.dot(q.theta_1) + f.m_2.dot(q.theta_2));
+}
+
+/// Moments against spins. The frame turns about its x axis with its nodes, by their shares.
+BeamForces against_spins(const BeamStress& f, const Vec3& theta_1, const Vec3& theta_2,
+                         double share) {
+  BeamForces out{f.N, conjugate_to_spin(theta_1, f.m_1), conjugate_to_spin(theta_2, f.m_2)};
+  const double excess = out.M_1.x() + out.M_2.x();
+  out.M_1.x() -= share * excess;
+  out.M_2.x() -= (1 - share) * excess;
+  return out;
+}
+
+/// Strain and forces of a level as 14 numbers in a row.
+void keep(const BeamStrain& q, const BeamStress& f, double* to) {
+  *to++ = q.u;
+  for (const Vec3* v : {&q.theta_1, &q.theta_2}) {
+    for (int i = 0; i < 3; ++i) *to++ = (*v)[i];
+  }
+  *to++ = f.N;
+  for (const Vec3* v : {&f.m_1, &f.m_2}) {
+    for (int i = 0; i < 3; ++i) *to++ = (*v)[i];
+  }
+}
+
+void load(const double* from, BeamStrain& q, BeamStress& f) {
+  q.u = *from++;
+  for (Vec3* v : {&q.theta_1, &q.theta_2}) {
+    for (int i = 0; i < 3; ++i) (*v)[i] = *from++;
+  }
+  f.N = *from++;
+  for (Vec3* v : {&f.m_1, &f.m_2}) {
+    for (int i = 0; i < 3; ++i) (*v)[i] = *from++;
+  }
+}
+
+/// Stress of element k at a strain, fibres taken on; its energies are added to the sums.
+BeamStress section_stress(BeamBlock& block, std::size_t k, const BeamStrain& q, BeamSums& sums) {
+  const BeamLaw& law = block.law;
+  const double l0 = block.l0[k];
+  if (!law.yield.yields()) {
+    const BeamStress f = elastic_stress(law, l0, q);
+    sums.energy += energy_of(f, q);
+    return f;
+  }
+  const BeamSection& s = law.section;
+  const YieldingBeam beam{law.yield,
+                          s,
+                          law.G,
+                          l0,
+                          shear_ratio(law, s.I_y, s.A_z, l0),
+                          shear_ratio(law, s.I_z, s.A_y, l0)};
+  const std::size_t n = fibre_values(s);
+  double dissipated = 0;
+  const BeamStress f = yielding_stress(beam, q, {block.fibres.data() + n * k, n}, dissipated);
+  BeamStrain q_old;
+  BeamStress f_old;
+  load(&block.last[14 * k], q_old, f_old);
+  sums.energy += work_of(f_old, f, q_old, q);
+  sums.plastic += dissipated;
+  keep(q, f, &block.last[14 * k]);
+  return f;
+}
+
+/// Adds the damping of element k, beta K (q(n) - q(n-1))/dt.
+void add_damping(BeamBlock& block, std::size_t k, const BeamStrain& q, double dt, BeamStress& f,
+                 BeamSums& sums) {
+  double* kept = &block.damping_last[14 * k];
+  BeamStrain q_old;
+  BeamStress d_old;
+  load(kept, q_old, d_old);
+  BeamStress d;
+  if (dt > 0) {
+    const double rate = block.damping_time[k] / dt;
+    d = elastic_stress(block.law, block.l0[k],
+                       {rate * (q.u - q_old.u), rate * (q.theta_1 - q_old.theta_1),
+                        rate * (q.theta_2 - q_old.theta_2)});
+    sums.damping += work_of(d_old, d, q_old, q);
+  }
+  keep(q, d, kept);
+  f.N += d.N;
+  f.m_1 += d.m_1;
+  f.m_2 += d.m_2;
+}
+
+/// The bound that element k votes with [1/s^2].
+double vote_of(const BeamBlock& block, std::size_t k, double l, double N) {
+  double omega2 = omega2_of(block.law, block.l0[k], l, N);
+  if (!block.damping_time.empty()) {
+    const double zeta = 0.5 * block.damping_time[k] * std::sqrt(omega2);
+    const double factor = std::sqrt(1 + zeta * zeta) + zeta;
+    omega2 *= factor * factor;
+  }
+  return block.inverse_mass.empty() ? omega2 : omega2 * block.inverse_mass[k];
+}
+
+/// Forces of element k at its pose.
+BeamForces element_forces(BeamBlock& block, std::size_t k, const BeamPose& pose, double dt,
+                          BeamSums& sums) {
+  const unsigned bits = block.released.empty() ? 0 : block.released[k];
+  BeamStrain q{pose.l - block.l0[k], pose.theta_1, pose.theta_2};
+  BeamStress f;
+  if (bits == 0) {
+    f = section_stress(block, k, q, sums);
+    if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
+  } else {
+    const Releases releases(block.law, block.l0[k], bits);
+    releases.reduce(q);
+    f = section_stress(block, k, q, sums);
+    if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
+    releases.expand(f);
+  }
+  return against_spins(f, pose.theta_1, pose.theta_2, share_of_first(bits));
+}
+
 /// Elements [begin, end): forces and moments added.
-BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
+BeamSums pass_over(BeamBlock& block, Nodes& nodes, double dt, Index begin, Index end) {
   BeamSums sums;
   for (Index e = begin; e < end; ++e) {
     const auto k = static_cast<std::size_t>(e);
@@ -142,11 +319,9 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
       return quaternion_of(block.turned[static_cast<std::size_t>(i - block.nodes.begin)]) *
              block.frame[k];
     };
-    const BeamPose pose = pose_of(triad(a), triad(b), at(nodes.x, b) - at(nodes.x, a));
-    double energy = 0;
-    const BeamForces f = beam_forces(block.law, block.l0[k], pose.l - block.l0[k], pose.theta_1,
-                                     pose.theta_2, energy);
-    sums.energy += energy;
+    const double share = block.released.empty() ? 0.5 : share_of_first(block.released[k]);
+    const BeamPose pose = pose_of(triad(a), triad(b), at(nodes.x, b) - at(nodes.x, a), share);
+    const BeamForces f = element_forces(block, k, pose, dt, sums);
     const Vec3 M_1 = pose.frame * f.M_1;
     const Vec3 M_2 = pose.frame * f.M_2;
     const double inverse_l = pose.l > 0 ? 1 / pose.l : 0.0;
@@ -156,8 +331,7 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, Index begin, Index end) {
     add_xyz(nodes.torque[static_cast<std::size_t>(a)], -M_1);
     add_xyz(nodes.torque[static_cast<std::size_t>(b)], -M_2);
     show_forces(block, e, f, inverse_l);
-    double omega2 = omega2_of(block.law, block.l0[k], pose.l, f.N);
-    if (!block.inverse_mass.empty()) omega2 *= block.inverse_mass[k];
+    const double omega2 = vote_of(block, k, pose.l, f.N);
     if (omega2 <= sums.omega2) continue;
     sums.omega2 = omega2;
     sums.element = e;
@@ -179,24 +353,10 @@ double rotary_ratio(const BeamLaw& law, double l0) {
 
 BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
                        const Vec3& theta_2, double& energy) {
-  const BeamSection& s = law.section;
-  const BendingStiffness about_y = bending_of(law, s.I_y, s.A_z, l0);
-  const BendingStiffness about_z = bending_of(law, s.I_z, s.A_y, l0);
-  BeamForces f;
-  f.N = law.E * s.A * u / l0;
-  const double T = law.G * s.J / l0 * (theta_2.x() - theta_1.x());
-  const Vec3 k4(0, about_y.k4, about_z.k4);
-  const Vec3 k2(0, about_y.k2, about_z.k2);
-  const Vec3 m_1 = k4.cwiseProduct(theta_1) + k2.cwiseProduct(theta_2) - T * Vec3::UnitX();
-  const Vec3 m_2 = k2.cwiseProduct(theta_1) + k4.cwiseProduct(theta_2) + T * Vec3::UnitX();
-  energy = 0.5 * (f.N * u + m_1.dot(theta_1) + m_2.dot(theta_2));
-  f.M_1 = conjugate_to_spin(theta_1, m_1);
-  f.M_2 = conjugate_to_spin(theta_2, m_2);
-  // The frame turns about its x axis by the mean of the two ends.
-  const double excess = 0.5 * (f.M_1.x() + f.M_2.x());
-  f.M_1.x() -= excess;
-  f.M_2.x() -= excess;
-  return f;
+  const BeamStrain q{u, theta_1, theta_2};
+  const BeamStress f = elastic_stress(law, l0, q);
+  energy = energy_of(f, q);
+  return against_spins(f, theta_1, theta_2, 0.5);
 }
 
 BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<const Line> x,
@@ -219,6 +379,11 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
   block.turned.assign(static_cast<std::size_t>(range.size()), {1, 0, 0, 0});
   block.energy.assign(1, 0);
   block.forces.assign(6 * n, 0);
+  if (law.yield.yields()) {
+    block.fibres.assign(n * fibre_values(law.section), 0);
+    block.last.assign(14 * n, 0);
+  }
+  if (law.damping.given()) block.damping_last.assign(14 * n, 0);
   block.colouring = colour_chunks(block.ends, 2, beam_chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;
@@ -249,24 +414,58 @@ void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
   }
 }
 
+void prepare_damping(BeamBlock& block) {
+  if (!block.law.damping.given()) return;
+  block.damping_time = damping_times(block.law.damping, bounds_of(block));
+}
+
+bool release(BeamBlock& block, Index node, unsigned axes) {
+  std::vector<std::size_t> ends;
+  for (std::size_t k = 0; k < block.ends.size(); ++k) {
+    if (block.ends[k] == node) ends.push_back(k);
+  }
+  if (ends.empty()) return false;
+  if (ends.size() > 1) ends.pop_back();
+  block.released.resize(block.l0.size(), 0);
+  for (const std::size_t k : ends) {
+    std::uint8_t& bits = block.released[k / 2];
+    bits = static_cast<std::uint8_t>(bits | axes << (k % 2 == 0 ? 0U : 3U));
+  }
+  return true;
+}
+
+void show_plastic_strain(BeamBlock& block) {
+  const std::size_t n = fibre_values(block.law.section);
+  block.plastic_shown.assign(block.l0.size(), 0);
+  for (std::size_t e = 0; e < block.l0.size(); ++e) {
+    for (std::size_t k = 1; k < n; k += 2) {
+      block.plastic_shown[e] = std::max(block.plastic_shown[e], block.fibres[n * e + k]);
+    }
+  }
+}
+
 ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {
   turn_nodes(block, nodes, dt_old);
   const Index n = block.n_elements();
   for_chunks_by_colour(block.colouring, n, [&](Index chunk, Index begin, Index end) {
     block.sums[static_cast<std::size_t>(chunk)] =
-        pass_over(block, nodes, lanes * begin, std::min(n, lanes * end));
+        pass_over(block, nodes, dt_old, lanes * begin, std::min(n, lanes * end));
   });
   double energy = 0;
+  ElementWork work;
   block.omega2 = 0;
   block.limiting = -1;
   for (const BeamSums& s : block.sums) {
     energy += s.energy;
+    work.plastic += s.plastic;
+    work.damping += s.damping;
     if (s.omega2 <= block.omega2) continue;
     block.omega2 = s.omega2;
     block.limiting = s.element;
   }
-  const ElementWork work{.internal = energy - block.energy[0]};
-  block.energy[0] = energy;
+  const bool yields = block.law.yield.yields();
+  work.internal = yields ? energy : energy - block.energy[0];
+  block.energy[0] = yields ? block.energy[0] + energy : energy;
   return work;
 }
 

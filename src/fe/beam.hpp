@@ -1,7 +1,9 @@
-// Elastic two-node beams with large rotations and small strains: the frame of each element turns
-// along, and what its nodes turn against it is small.
+// Two-node beams with large rotations and small strains: the frame of each element turns along, and
+// what its nodes turn against it is small. Elastic, or of fibres that yield (beam_fibres.hpp);
+// damped in proportion to stiffness, and with released ends where asked for.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <span>
 #include <string>
@@ -9,9 +11,11 @@
 
 #include "base/array.hpp"
 #include "base/math.hpp"
+#include "fe/beam_fibres.hpp"
 #include "fe/beam_section.hpp"
 #include "fe/colouring.hpp"
 #include "fe/element_part.hpp"
+#include "fe/stiffness_damping.hpp"
 #include "scene/scene.hpp"
 
 namespace gannet {
@@ -24,6 +28,8 @@ struct BeamLaw {
   double rho = 0;             ///< density [kg/m^3], > 0
   double rotary_inertia = 0;  ///< of a node over m max(I_y, I_z)/A; 0: see rotary_ratio()
   double dt_factor = 0.9;     ///< share of the stable step that is voted for
+  UniaxialLaw yield;          ///< of the fibres; elastic unless it yields
+  StiffnessDamping damping;
 };
 
 /// Stiffness of an element against the rotations of its ends in one plane, and its part of it:
@@ -42,8 +48,10 @@ struct BeamForces {
 
 /// Sums over the elements of one chunk in one pass.
 struct BeamSums {
-  double energy = 0;  ///< strain energy [J]
-  double omega2 = 0;  ///< bound of the highest frequency, squared [1/s^2]
+  double energy = 0;   ///< strain energy [J], of elements that yield the work of the step
+  double plastic = 0;  ///< plastic work of the step [J]
+  double damping = 0;  ///< work of damping in the step [J]
+  double omega2 = 0;   ///< bound of the highest frequency, squared [1/s^2]
   Index element = -1;
 };
 
@@ -52,8 +60,16 @@ struct BeamBlock {
   std::string name;
   int part = -1;  ///< number of the part in the scene; -1 where there is none
   BeamLaw law;
-  Range nodes;                    ///< of the part; all have rotations
-  Array<Index> ends;              ///< node numbers
+  Range nodes;        ///< of the part; all have rotations
+  Array<Index> ends;  ///< node numbers
+  /// Per element: bits 0, 1, 2 where its first end is released about x, y, z, bits 3, 4, 5 where
+  /// its second one is; none: no end is.
+  std::vector<std::uint8_t> released;
+  Array<double> fibres;           ///< fibre_values() an element, where they yield
+  Array<double> last;             ///< 14 an element: strain and stress of n-1, where they yield
+  Array<double> damping_last;     ///< 14: strain and damping forces of n-1, where they are damped
+  Array<double> damping_time;     ///< see ElementVotes; none: not damped
+  Array<double> plastic_shown;    ///< largest eps_p of the fibres, by show_plastic_strain()
   Array<double> inverse_mass;     ///< see ElementVotes; none: no mass was added
   Array<double> l0;               ///< unstrained length of each element [m]
   std::vector<Quaternion> frame;  ///< of each element at the start: x along it, y, z of its section
@@ -99,21 +115,35 @@ BeamNodeMass node_mass(const BeamBlock& block, Index e);
 /// Squares of the bounds of the frequencies of the unstrained elements [1/s^2], eight a block.
 Array<double> bounds_of(const BeamBlock& block);
 
+/// Sets the damping times up that the law asks for.
+void prepare_damping(BeamBlock& block);
+
+/// Releases ends of elements about axes of their sections at a node: every element that meets there
+/// but the last, the only one where a line ends. axes: bits 0, 1, 2 for x, y, z. The moments about
+/// them vanish, and with a released end the other one alone says how the element is turned about
+/// its chord. Returns whether the node is one of the block.
+bool release(BeamBlock& block, Index node, unsigned axes);
+
+/// Fills plastic_shown. Needs a law that yields.
+void show_plastic_strain(BeamBlock& block);
+
 /// Adds to both nodes of each element m = rho A l0/2, and rotary_ratio() m max(I_y, I_z)/A.
 void add_beam_masses(const BeamBlock& block, Nodes& nodes);
 
 /// One pass: node triads to n, forces and moments at x(n) added to nodes.f and nodes.torque;
-/// returns the change of the strain energy. dt_old: t(n) - t(n-1) [s]. The same bits for any number
-/// of threads. Throws nothing.
-/// A node turns by the midpoint rule, its quaternion by (1, omega dt/2)/|.|: then chords and nodes
-/// of a body in rigid rotation turn by the same angle, 2 atan(|omega| dt/2), exactly.
-/// The frame of an element has x along the chord, from the mean of its nodes' triads by the
-/// smallest rotation. theta_a: rotation vector of node a against it. Strain energy
+/// returns the change of the strain energy, of beams that yield the work by trapezoids. dt_old:
+/// t(n) - t(n-1) [s]. The same bits for any number of threads. Throws nothing. A node turns by the
+/// midpoint rule, its quaternion by (1, omega dt/2)/|.|: then chords and nodes of a body in rigid
+/// rotation turn by the same angle, 2 atan(|omega| dt/2), exactly. The frame of an element has x
+/// along the chord, from the mean of its nodes' triads by the smallest rotation. theta_a: rotation
+/// vector of node a against it. Strain energy
 ///   W = EA (l - l0)^2/(2 l0) + GJ (theta_2x - theta_1x)^2/(2 l0) + bending with BendingStiffness;
 /// moments are its gradients against spins, M_a = T(theta_a)^T dW/dtheta_a, and the forces across
 /// follow from the balance of moments, so that force and moment balance to rounding.
-/// Belytschko and Schwer 1977 (Int. J. Numer. Methods Eng. 11, 65-84) for the corotational element;
-/// Crisfield 1990 (Comput. Methods Appl. Mech. Eng. 81) for the mean frame.
+/// At a released end the turn is the one without moment, theta_1 = -(k2/k4) theta_2 in a plane.
+/// Damping adds beta K (q(n) - q(n-1))/dt_old, q = (u, theta_1, theta_2). Belytschko and Schwer
+/// 1977 (Int. J. Numer. Methods Eng. 11, 65-84) for the corotational element; Crisfield 1990
+/// (Comput. Methods Appl. Mech. Eng. 81) for the mean frame.
 ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old);
 
 /// Local forces of an element of length l0 that is stretched by u [m] and whose ends have turned by

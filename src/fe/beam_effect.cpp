@@ -11,15 +11,16 @@
 #include "material/elastic_plastic.hpp"
 #include "mesh/line_shapes.hpp"
 #include "mesh/mesh_keys.hpp"
+#include "scene/node_set.hpp"
 
 namespace gannet {
 
 namespace {
 
-std::vector<Key> beam_keys() {
+std::vector<Key> own_keys() {
   return {{.name = "material",
            .kind = Kind::reference,
-           .text = "solid that the beams are made of; they stay elastic",
+           .text = "solid that the beams are made of; where it yields, its fibres do",
            .required = true,
            .refers_to = "materials"},
           {.name = "section",
@@ -41,6 +42,32 @@ std::vector<Key> beam_keys() {
            .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
 }
 
+/// releases.NAME: {nodes, axes}
+Key releases_key() {
+  Key one{.name = "*",
+          .kind = Kind::map,
+          .text = "a hinge: moments at these nodes that vanish",
+          .keys = {node_set_key("nodes", true),
+                   {.name = "axes",
+                    .kind = Kind::names,
+                    .text = "axes of the section: x along the beam, y, z across",
+                    .required = true,
+                    .choices = {"x", "y", "z"}}}};
+  return {.name = "releases",
+          .kind = Kind::map,
+          .text =
+              "hinges: of the elements that meet at a node all but the last are released there, "
+              "and the only one at the end of a line",
+          .keys = {one}};
+}
+
+std::vector<Key> beam_keys() {
+  std::vector<Key> keys = own_keys();
+  for (Key& key : stiffness_damping_keys()) keys.push_back(std::move(key));
+  keys.push_back(releases_key());
+  return keys;
+}
+
 Schema schema() {
   return element_schema("beam", "the part is a line of beam elements", beam_keys());
 }
@@ -59,20 +86,55 @@ void add_parts(const Keys& root, Draft& draft) {
   }
 }
 
+/// The law of the fibres; says what of the material they do not know.
+UniaxialLaw read_yield(const Keys& beam, const ElasticPlastic& material, const BeamSection& section,
+                       Scene& scene) {
+  if (!material.plastic()) return {};
+  const auto warn = [&](const char* what) {
+    scene.warnings.push_back(fmt::format("{}: {} '{}'", beam.path(), what, beam.word("material")));
+  };
+  if (section.fibres.empty()) {
+    if (section.A > 0)
+      warn("a section without a shape stays elastic, whatever the yield stress of");
+    return {};
+  }
+  if (material.rate_law != RateLaw::none || material.heating.specific_heat > 0 ||
+      material.failure.given()) {
+    warn("beams yield by the quasi-static curve: they know neither rate, heat nor failure of");
+  }
+  return uniaxial_law(material);
+}
+
 BeamLaw read_law(const Keys& root, const Keys& beam, Scene& scene) {
   const ElasticPlastic material = read_but_rubber(root, beam);
-  if (material.plastic()) {
-    scene.warnings.push_back(
-        fmt::format("{}: beams stay elastic; the yield stress of '{}' is not "
-                    "looked at",
-                    beam.path(), beam.word("material")));
-  }
-  return {.section = read_beam_section(beam.map("section")),
+  const BeamSection section = read_beam_section(beam.map("section"));
+  return {.section = section,
           .E = material.E,
           .G = material.G(),
           .rho = material.rho,
           .rotary_inertia = beam.number_or("rotary_inertia", 0),
-          .dt_factor = beam.number("dt_factor")};
+          .dt_factor = beam.number("dt_factor"),
+          .yield = read_yield(beam, material, section, scene),
+          .damping = read_stiffness_damping(beam)};
+}
+
+/// Releases the ends that the case names.
+void read_releases(const Keys& beam, const Scene& scene, BeamBlock& block) {
+  if (!beam.has("releases")) return;
+  const Keys releases = beam.map("releases");
+  for (const std::string& name : releases.names()) {
+    const Keys one = releases.map(name);
+    if (!one.has("nodes") || !one.has("axes")) continue;  // the reader has complained
+    unsigned axes = 0;
+    for (const std::string& axis : one.words("axes")) {
+      axes |= axis == "x" ? 1U : (axis == "y" ? 2U : 4U);
+    }
+    for (const Index node : select_nodes(one.map("nodes"), scene)) {
+      if (release(block, node, axes)) continue;
+      one.complain("nodes", "names nodes of another part");
+      break;
+    }
+  }
 }
 
 /// What a pass takes from the level before is tracked; section forces are shown.
@@ -83,6 +145,22 @@ void track(Scene& scene, BeamBlock& block) {
   };
   add(line_field(block.name + ".turned", "", "", Over::scene, block.turned, 0, 4, GhostRule::none));
   add(plain_field(block.name + ".energy", "J", "", Over::scene, block.energy, 1, GhostRule::none));
+  const auto per_element = [&](const char* name, Array<double>& values, std::size_t n) {
+    if (values.empty()) return;
+    add(plain_field(block.name + name, "", "", Over::scene, values, static_cast<int>(n),
+                    GhostRule::none));
+  };
+  per_element(".fibres", block.fibres, fibre_values(block.law.section));
+  per_element(".last", block.last, 14);
+  per_element(".damping", block.damping_last, 14);
+  if (block.law.yield.yields()) {
+    show_plastic_strain(block);
+    Field shown = plain_field(block.name + ".plastic_strain", "", "PlasticStrain", Over::cells,
+                              block.plastic_shown, 1, GhostRule::none);
+    shown.owner = "beam";
+    shown.prepare = [&block] { show_plastic_strain(block); };
+    track_shown(scene, block.part, std::move(shown));
+  }
   Field forces = plain_field(block.name + ".forces", "N, N m", "SectionForces", Over::cells,
                              block.forces, 6, GhostRule::none);
   forces.owner = "beam";
@@ -126,6 +204,8 @@ void state(const Keys& root, Scene& scene) {
     block.name = part.name;
     block.part = number;
     add_beam_masses(block, scene.nodes);
+    prepare_damping(block);
+    read_releases(beam, scene, block);
     scale_masses(keys, block, scene);
     track(scene, block);
   }
@@ -134,8 +214,12 @@ void state(const Keys& root, Scene& scene) {
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<BeamBlocks>()) return;
   for (BeamBlock& block : scene.store.get<BeamBlocks>().list) {
-    ElementPart part{
-        .kind = "beam", .part = block.part, .reads = {"x", "omega"}, .writes = {"f", "torque"}};
+    ElementPart part{.kind = "beam",
+                     .part = block.part,
+                     .reads = {"x", "omega"},
+                     .writes = {"f", "torque"},
+                     .plastic = block.law.yield.yields(),
+                     .damping = block.law.damping.given()};
     part.pass = [&scene, &block](const Step& step) {
       return beam_pass(block, scene.nodes, step.dt_old);
     };

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+
+#include "fe/gauss.hpp"
 
 namespace gannet {
 
@@ -15,6 +18,53 @@ namespace {
 constexpr double kappa_round = 7.8 / 8.8;
 
 double fourth(double x) { return x * x * x * x; }
+
+/// Gauss points of n pieces of equal length over a length about 0, with their lengths.
+struct LinePoint {
+  double x = 0;
+  double length = 0;
+};
+
+std::vector<LinePoint> line_points(double length, int pieces, int per_piece) {
+  const GaussRule rule = gauss_rule(per_piece);
+  const double half = 0.5 * length / pieces;
+  std::vector<LinePoint> points;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double middle = (2 * piece + 1 - pieces) * half;
+    for (int k = 0; k < per_piece; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      points.push_back({middle + half * rule.point[i], half * rule.weight[i]});
+    }
+  }
+  return points;
+}
+
+/// Fibres of a rectangle about (y, z): quarters of two points along its long sides, so that a fully
+/// plastic one has its exact moment, and two points through a wall.
+void add_rectangle(double y, double z, const std::vector<LinePoint>& along_y,
+                   const std::vector<LinePoint>& along_z, std::vector<BeamFibre>& fibres) {
+  for (const LinePoint& b : along_y) {
+    for (const LinePoint& h : along_z) fibres.push_back({y + b.x, z + h.x, b.length * h.length});
+  }
+}
+
+std::vector<LinePoint> along_side(double length) { return line_points(length, 4, 2); }
+std::vector<LinePoint> through_wall(double thickness) { return line_points(thickness, 1, 2); }
+
+/// Fibres of a ring between two radii: two along a radius, sixteen around.
+std::vector<BeamFibre> ring_fibres(double inner, double outer) {
+  constexpr int n = 16;
+  std::vector<BeamFibre> fibres;
+  for (const LinePoint& at : line_points(outer - inner, 1, 2)) {
+    const double r = 0.5 * (outer + inner) + at.x;
+    for (int k = 0; k < n; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + 0.5) / n;
+      fibres.push_back(
+          {r * std::cos(angle), r * std::sin(angle), 2 * std::numbers::pi / n * r * at.length});
+    }
+  }
+  return fibres;
+}
 
 Key side(const char* name, const char* text) {
   return {.name = name, .unit = dim::length, .text = text, .required = true, .limits = positive()};
@@ -72,12 +122,15 @@ BeamSection rectangle_section(double b, double h) {
     sum += std::tanh(0.5 * n * std::numbers::pi * a / t) / std::pow(n, 5);
   }
   const double J = a * t * t * t / 3 * (1 - 192 * t / (std::pow(std::numbers::pi, 5) * a) * sum);
+  std::vector<BeamFibre> fibres;
+  add_rectangle(0, 0, along_side(b), along_side(h), fibres);
   return {.A = b * h,
           .I_y = b * h * h * h / 12,
           .I_z = h * b * b * b / 12,
           .J = J,
           .A_y = 5.0 / 6.0 * b * h,
-          .A_z = 5.0 / 6.0 * b * h};
+          .A_z = 5.0 / 6.0 * b * h,
+          .fibres = std::move(fibres)};
 }
 
 BeamSection round_section(double d) { return tube_section(d, 0.5 * d); }
@@ -90,30 +143,48 @@ BeamSection tube_section(double d, double t) {
   const double m = inner / d;
   const double q = (1 + m * m) * (1 + m * m);
   const double kappa = m > 0 ? 7.8 * q / (8.8 * q + (20 + 12 * 0.3) * m * m) : kappa_round;
-  return {.A = A, .I_y = I, .I_z = I, .J = 2 * I, .A_y = kappa * A, .A_z = kappa * A};
+  return {.A = A,
+          .I_y = I,
+          .I_z = I,
+          .J = 2 * I,
+          .A_y = kappa * A,
+          .A_z = kappa * A,
+          .fibres = ring_fibres(0.5 * inner, 0.5 * d)};
 }
 
 BeamSection box_section(double b, double h, double t) {
   const double bi = b - 2 * t;
   const double hi = h - 2 * t;
   const double enclosed = (b - t) * (h - t);
+  std::vector<BeamFibre> fibres;
+  for (const double side : {-0.5, 0.5}) {
+    add_rectangle(0, side * (h - t), along_side(b), through_wall(t), fibres);
+    add_rectangle(side * (b - t), 0, through_wall(t), along_side(hi), fibres);
+  }
   return {.A = b * h - bi * hi,
           .I_y = (b * h * h * h - bi * hi * hi * hi) / 12,
           .I_z = (h * b * b * b - hi * bi * bi * bi) / 12,
           .J = 2 * t * enclosed * enclosed / (b + h - 2 * t),
           .A_y = 2 * t * (b - t),
-          .A_z = 2 * t * (h - t)};
+          .A_z = 2 * t * (h - t),
+          .fibres = std::move(fibres)};
 }
 
 BeamSection i_section(double b, double h, double f, double w) {
   const double inner = h - 2 * f;
   const double thin = 2 * b * f * f * f + (h - f) * w * w * w;
+  std::vector<BeamFibre> fibres;
+  for (const double side : {-0.5, 0.5}) {
+    add_rectangle(0, side * (h - f), along_side(b), through_wall(f), fibres);
+  }
+  add_rectangle(0, 0, through_wall(w), along_side(inner), fibres);
   return {.A = 2 * b * f + inner * w,
           .I_y = (b * h * h * h - (b - w) * inner * inner * inner) / 12,
           .I_z = (2 * f * b * b * b + inner * w * w * w) / 12,
           .J = thin / 3,
           .A_y = 5.0 / 6.0 * 2 * b * f,
-          .A_z = w * (h - f)};
+          .A_z = w * (h - f),
+          .fibres = std::move(fibres)};
 }
 
 std::vector<Key> beam_section_keys() {

@@ -8,6 +8,13 @@
 
 namespace gannet {
 
+/// A point of a section that stands for the area A [m^2] around it, y, z [m].
+struct BeamFibre {
+  double y = 0;
+  double z = 0;
+  double A = 0;
+};
+
 /// A section about its centre; y and z are its principal axes.
 struct BeamSection {
   double A = 0;    ///< area [m^2], > 0
@@ -16,6 +23,9 @@ struct BeamSection {
   double J = 0;    ///< torsion constant of Saint-Venant [m^4], > 0
   double A_y = 0;  ///< area that carries shear along y, kappa A [m^2]; 0: stiff in shear
   double A_z = 0;  ///< along z [m^2]; 0: stiff in shear
+  /// Points whose sums of A, A y^2, A z^2 are those of the section, for beams that yield: none
+  /// where the section has no shape.
+  std::vector<BeamFibre> fibres;
 };
 
 /// b along y, h along z [m].
