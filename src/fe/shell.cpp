@@ -159,7 +159,7 @@ ShellBlock make_shell_block(std::span<const Index> connectivity, std::span<const
   block.constants = make_constants(material, section);
   const bool has_fibres = section.warping || section.kind != ShellKind::one_point;
   block.layout = {section.points, 3 + (material.plastic() ? block.constants.history.n : 0),
-                  has_fibres, section.kind};
+                  has_fibres, section.kind, section.damping.given()};
   const int n_corners = block.n_corners();
   block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
   block.corners = corners_by_block(connectivity, n_corners);
@@ -200,18 +200,17 @@ void add_shell_masses(const ShellBlock& block, Nodes& nodes) {
 namespace {
 
 ShellPass pass_over(ShellBlock& block, const Nodes& nodes, Line* f, Line* torque, double dt) {
-  return {
-      .constants = &block.constants,
-      .layout = block.layout,
-      .x = &nodes.x.data()->x,
-      .v = &nodes.v.data()->x,
-      .omega = &nodes.omega.data()->x,
-      .f = &f->x,
-      .torque = &torque->x,
-      .corners = block.corners.data(),
-      .state = block.state.data(),
-      .votes = {.inverse_mass = block.inverse_mass.empty() ? nullptr : block.inverse_mass.data()},
-      .dt = dt};
+  return {.constants = &block.constants,
+          .layout = block.layout,
+          .x = &nodes.x.data()->x,
+          .v = &nodes.v.data()->x,
+          .omega = &nodes.omega.data()->x,
+          .f = &f->x,
+          .torque = &torque->x,
+          .corners = block.corners.data(),
+          .state = block.state.data(),
+          .votes = votes_of(block.inverse_mass, block.damping_time),
+          .dt = dt};
 }
 
 /// The pass over blocks [begin, end) that the kind of element has.
@@ -248,6 +247,7 @@ ElementWork shell_pass(ShellBlock& block, Nodes& nodes, double dt_old, Isa set) 
     work.internal += s.internal;
     work.plastic += s.plastic;
     work.hourglass += s.hourglass;
+    work.damping += s.damping;
     work.eroded += s.eroded;
     if (s.area_ratio < block.area_ratio) {
       block.area_ratio = s.area_ratio;
@@ -274,6 +274,11 @@ Array<double> bounds_of(const ShellBlock& block, const Nodes& nodes) {
   ShellSums sums;
   pass_blocks(block.section.kind, pass, 0, copy.n_blocks(), sums, isa());
   return bounds;
+}
+
+void prepare_damping(ShellBlock& block, const Nodes& nodes) {
+  if (!block.section.damping.given()) return;
+  block.damping_time = damping_times(block.section.damping, bounds_of(block, nodes));
 }
 
 std::vector<ElementStep> smallest_steps(const ShellBlock& block, const Nodes& nodes,

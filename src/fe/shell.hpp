@@ -12,6 +12,7 @@
 #include "fe/element_blocks.hpp"
 #include "fe/element_part.hpp"
 #include "fe/shell_kernel.hpp"
+#include "fe/stiffness_damping.hpp"
 #include "material/elastic_plastic.hpp"
 #include "scene/scene.hpp"
 
@@ -30,6 +31,7 @@ struct ShellSection {
   bool thickness_changes = false;
   bool warping = true;  ///< of the one-point element: fibres, see shell_element.hpp
   double offset = 0;    ///< of the middle of the shell from its nodes, along the normal [m]
+  StiffnessDamping damping;
   double smallest_ratio = 0.01;  ///< A/A0 at which an element has collapsed, > 0
   double dt_factor = 0.9;        ///< share of the stable step that is voted for
 };
@@ -45,6 +47,7 @@ struct ShellBlock {
   Index n_elements = 0;
   std::vector<Index> cells;    ///< of the part that the elements are; none: in their order
   Array<Index> corners;        ///< of a block of 8 in a row: corner a of lane l at 8 a + l
+  Array<double> damping_time;  ///< see ElementVotes; none: not damped
   Array<double> inverse_mass;  ///< see ElementVotes; none: no mass was added
   Array<double> state;         ///< layout.n_values() * 8 a block
   ChunkColours colouring;
@@ -110,6 +113,10 @@ double stable_step(const ShellBlock& block);
 /// Squares of the bounds of the frequencies of the elements at rest in the positions at hand
 /// [1/s^2], eight a block. Changes nothing.
 Array<double> bounds_of(const ShellBlock& block, const Nodes& nodes);
+
+/// Sets the damping times up that the section asks for, from the frequencies at rest in the
+/// positions at hand.
+void prepare_damping(ShellBlock& block, const Nodes& nodes);
 
 /// The n elements that allow the smallest steps in the state at hand, the smallest first, by
 /// bounds_of().

@@ -1,5 +1,6 @@
 // Passes over the shells of shell_assumed.hpp.
 #include "fe/shell_assumed.hpp"
+#include "fe/shell_damping.hpp"
 #include "fe/shell_general.hpp"
 #include "fe/shell_kernel.hpp"
 #include "fe/shell_lanes.hpp"
@@ -266,6 +267,13 @@ GANNET_INLINE BlockState block_state(const ShellPass& pass, std::int32_t number)
           Vec8::load(all + 8 * layout.inverse_area())};
 }
 
+/// The thickness over a point of the plane that still carries something [m].
+template <PointLaw law>
+GANNET_INLINE Vec8 carrying(Vec8 t, const ColumnStress& column) {
+  if constexpr (law != PointLaw::general) return t;
+  return select(less(column.least_damage, Vec8(1.0)), t, Vec8(0.0));
+}
+
 /// The thickness [m], 0 from now on where every point has failed.
 GANNET_INLINE Vec8 left_of(Vec8 t, Vec8 least_damage, double* thickness) {
   const Vec8 left = select(less(least_damage, Vec8(1.0)), t, Vec8(0.0));
@@ -315,6 +323,7 @@ GANNET_INLINE void Quad::block(const ShellPass& pass, std::int32_t number, Shell
       least_damage = min(least_damage, column.least_damage);
       sums.eroded += column.work.eroded * p.J;
     }
+    add_damping(pass, number, k, state.all, d, carrying<law>(t, column), p.J, r, sums);
     growth += p.J * column.growth;
     sums.internal += column.work.internal * p.J;
     if constexpr (law != PointLaw::elastic) sums.plastic += column.work.plastic * p.J;
@@ -463,6 +472,7 @@ GANNET_INLINE void Triangle::block(const ShellPass& pass, std::int32_t number,
     sums.eroded += column.work.eroded * half.area;
   }
   turned.store(state.shear + 16);
+  add_damping(pass, number, 0, state.all, d, carrying<law>(t, column), half.area, r, sums);
   const auto factor = [&](const FlatGeometry<3>& g) {
     return Vec8(c.shear_factor / 144.0) * t * sides_squared(g) / g.area;
   };

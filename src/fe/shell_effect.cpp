@@ -20,7 +20,7 @@ namespace gannet {
 
 namespace {
 
-std::vector<Key> shell_keys() {
+std::vector<Key> own_keys() {
   const std::vector<Key> hourglass{
       {.name = "type",
        .kind = Kind::choice,
@@ -87,6 +87,12 @@ std::vector<Key> shell_keys() {
        .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
 }
 
+std::vector<Key> shell_keys() {
+  std::vector<Key> keys = own_keys();
+  for (Key& key : stiffness_damping_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
 Schema schema() {
   return element_schema(
       "shell", "the part is made of 4-node shells, and of 3-node ones where it has triangles",
@@ -128,6 +134,7 @@ ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
         hourglass.number_or("coefficient", section.hourglass_coefficient);
   }
   section.offset = shell.number_or("offset", 0);
+  section.damping = read_stiffness_damping(shell);
   section.smallest_ratio = shell.number_or("collapse_ratio", section.smallest_ratio);
   section.thickness_changes = shell.has("thickness_change") && shell.flag("thickness_change");
   section.warping = !shell.has("warping") || shell.flag("warping");
@@ -300,6 +307,7 @@ void make_blocks(Scene& scene, const ElasticPlastic& material, ShellSection sect
     block.part = shell.part;
     block.cells = cells.number;
     add_shell_masses(block, scene.nodes);
+    prepare_damping(block, scene.nodes);
     shell.blocks.push_back(&block);
   }
 }
@@ -416,6 +424,7 @@ ElementWork pass_over_part(ShellPart& part, Scene& scene, const Step& step) {
     sum.internal += work.internal;
     sum.plastic += work.plastic;
     sum.hourglass += work.hourglass;
+    sum.damping += work.damping;
     sum.eroded += work.eroded;
   }
   mark_gone(part);
@@ -446,6 +455,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .writes = {"f", "torque"},
                      .plastic = first.material.plastic(),
                      .hourglass = first.section.kind == ShellKind::one_point,
+                     .damping = first.section.damping.given(),
                      .eroded = first.material.failure.given()};
     part.pass = [&scene, &shell](const Step& step) { return pass_over_part(shell, scene, step); };
     part.stable_dt = [&shell] { return stable_step(stiffest(shell)); };

@@ -52,6 +52,7 @@ struct ShellLayout {
   int per_point = 4;  ///< sigma_xx, sigma_yy, sigma_xy [Pa] and, but where elastic, the history
   bool has_fibres = false;  ///< always but in the one-point element without warping correction
   ShellKind kind = ShellKind::one_point;
+  bool damped = false;  ///< in proportion to stiffness: its forces are kept
   [[nodiscard]] int in_plane() const { return kind == ShellKind::quad ? 4 : 1; }
   /// The points above point g of the plane.
   [[nodiscard]] int stress(int g) const { return g * n_points * per_point; }
@@ -67,7 +68,11 @@ struct ShellLayout {
   [[nodiscard]] int inverse_area() const { return thickness() + 1; }  ///< 1/A0 [1/m^2]
   /// tx, ty of the corners [-], where there are fibres
   [[nodiscard]] int fibres() const { return inverse_area() + 1; }
-  [[nodiscard]] int n_values() const { return fibres() + (has_fibres ? 2 * corners_per(kind) : 0); }
+  /// Damping forces of point g of the plane: Nxx, Nyy, Nxy [N/m], Mxx, Myy, Mxy [N], Qx, Qy [N/m]
+  [[nodiscard]] int damping(int g) const {
+    return fibres() + (has_fibres ? 2 * corners_per(kind) : 0) + 8 * g;
+  }
+  [[nodiscard]] int n_values() const { return damping(damped ? in_plane() : 0); }
 };
 
 /// Everything that a pass over blocks reads and writes. Lines are as in scene/scene.hpp.
@@ -90,6 +95,7 @@ struct ShellSums {
   double internal = 0;        ///< [J], trapezoid of stress over the strain increment
   double plastic = 0;         ///< [J], part of it that plastic flow took
   double hourglass = 0;       ///< [J]
+  double damping = 0;         ///< [J], in proportion to stiffness
   double eroded = 0;          ///< [J], left with points that failed
   double omega2 = 0;          ///< largest bound of an element's squared frequency [1/s^2]
   std::int32_t element = -1;  ///< whose it is: 8 block + lane

@@ -1,5 +1,6 @@
 #include "fe/shell_kernel.hpp"
 
+#include "fe/shell_damping.hpp"
 #include "fe/shell_element.hpp"
 #include "fe/shell_general.hpp"
 #include "fe/shell_lanes.hpp"
@@ -51,6 +52,7 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
   if constexpr (law == PointLaw::general) {
     t = take_out_failed(layout, state, d, column.least_damage, t, r, work, hourglass_work);
   }
+  add_damping(pass, block, 0, state, d, t, half.area, r, sums);
   sums.hourglass += hourglass_work;
   sums.internal += work * half.area;
   if constexpr (law != PointLaw::elastic) sums.plastic += column.work.plastic * half.area;

@@ -64,6 +64,7 @@ struct ShellLaneSums {
   Vec8 internal = Vec8(0.0);
   Vec8 plastic = Vec8(0.0);
   Vec8 hourglass = Vec8(0.0);
+  Vec8 damping = Vec8(0.0);
   Vec8 eroded = Vec8(0.0);
   Vec8 omega2 = Vec8(0.0);
   Vec8 block = Vec8(-1.0);
@@ -80,7 +81,10 @@ struct ShellLaneSums {
   }
   /// Takes note of the bounds of a block, from the own mass of elements [1/s^2].
   GANNET_INLINE void vote(const ShellPass& pass, Vec8 own, std::int32_t number) {
-    const Vec8 bound = with_added_mass(pass.votes, number, own);
+    const Vec8 damped = pass.votes.damping_time == nullptr
+                            ? own
+                            : own * damped_factor(stiffness_ratio(pass.votes, number, own));
+    const Vec8 bound = with_added_mass(pass.votes, number, damped);
     const auto larger = less(omega2, bound);
     omega2 = select(larger, bound, omega2);
     block = select(larger, Vec8(static_cast<double>(number)), block);
@@ -133,6 +137,7 @@ GANNET_INLINE void over_blocks(const ShellPass& pass, std::int32_t begin, std::i
   out.internal = sum(sums.internal);
   out.plastic = sum(sums.plastic);
   out.hourglass = sum(sums.hourglass);
+  out.damping = sum(sums.damping);
   out.eroded = sum(sums.eroded);
   out.omega2 = 0;
   out.element = -1;

@@ -131,7 +131,10 @@ SolidBlock make_solid_block(std::span<const Index> connectivity, std::span<const
   block.layout = {
       material.plastic() ? block.constants.history.n : 0,
       section.points == 1 && !section.viscous_hourglass && section.shape != SolidShape::tetrahedron,
-      section.points, section.shape, material.hyperelastic()};
+      section.points,
+      section.shape,
+      material.hyperelastic(),
+      section.damping.given()};
   const int n_corners = block.layout.n_corners();
   block.n_elements = static_cast<Index>(connectivity.size()) / n_corners;
   block.corners = corners_by_block(connectivity, n_corners);
@@ -171,19 +174,18 @@ namespace {
 
 /// f: lines that the forces are added to.
 SolidPass pass_over(SolidBlock& block, const Nodes& nodes, Array<Line>& f, double dt_old) {
-  return {
-      .constants = &block.constants,
-      .layout = block.layout,
-      .x = &nodes.x.data()->x,
-      .v = &nodes.v.data()->x,
-      .f = &f.data()->x,
-      .corners = block.corners.data(),
-      .state = block.state.data(),
-      .nodal = block.layout.tetrahedra()
-                   ? &block.nodal.data()->x - 4 * std::ptrdiff_t{block.first_nodal}
-                   : nullptr,
-      .votes = {.inverse_mass = block.inverse_mass.empty() ? nullptr : block.inverse_mass.data()},
-      .dt = dt_old};
+  return {.constants = &block.constants,
+          .layout = block.layout,
+          .x = &nodes.x.data()->x,
+          .v = &nodes.v.data()->x,
+          .f = &f.data()->x,
+          .corners = block.corners.data(),
+          .state = block.state.data(),
+          .nodal = block.layout.tetrahedra()
+                       ? &block.nodal.data()->x - 4 * std::ptrdiff_t{block.first_nodal}
+                       : nullptr,
+          .votes = votes_of(block.inverse_mass, block.damping_time),
+          .dt = dt_old};
 }
 
 }  // namespace
@@ -199,6 +201,15 @@ Array<double> bounds_of(const SolidBlock& block, const Nodes& nodes) {
   isa() == Isa::avx512 ? avx512::solid_force(pass, 0, blocks_for(block.n_elements), sums)
                        : avx2::solid_force(pass, 0, blocks_for(block.n_elements), sums);
   return bounds;
+}
+
+void prepare_damping(SolidBlock& block, const Nodes& nodes) {
+  if (!block.section.damping.given()) return;
+  Array<double> bounds = bounds_of(block, nodes);
+  const double zeta = block.section.linear_viscosity;
+  const double factor = std::sqrt(1 + zeta * zeta) + zeta;
+  for (double& bound : bounds) bound /= factor * factor;
+  block.damping_time = damping_times(block.section.damping, bounds);
 }
 
 ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) {
@@ -222,6 +233,7 @@ ElementWork solid_pass(SolidBlock& block, Nodes& nodes, double dt_old, Isa set) 
     work.plastic += s.plastic;
     work.hourglass += s.hourglass;
     work.viscous += s.viscous;
+    work.damping += s.damping;
     work.eroded += s.eroded;
     if (s.omega2 > block.omega2) {
       block.omega2 = s.omega2;

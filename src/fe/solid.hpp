@@ -11,6 +11,7 @@
 #include "fe/element_blocks.hpp"
 #include "fe/element_part.hpp"
 #include "fe/solid_kernel.hpp"
+#include "fe/stiffness_damping.hpp"
 #include "material/elastic_plastic.hpp"
 #include "scene/scene.hpp"
 
@@ -24,8 +25,9 @@ struct SolidSection {
   double hourglass_coefficient = 0.05;  ///< kappa, see solid_element.hpp
   double linear_viscosity = 0.06;       ///< C2 of the bulk viscosity [-], 0: none
   double quadratic_viscosity = 1.5;     ///< C1 [-], 0: none
-  double smallest_ratio = 0.01;         ///< V/V0 at which an element has collapsed
-  double dt_factor = 0.9;               ///< share of the stable step that is voted for
+  StiffnessDamping damping;
+  double smallest_ratio = 0.01;  ///< V/V0 at which an element has collapsed
+  double dt_factor = 0.9;        ///< share of the stable step that is voted for
 };
 
 /// The solids of one part. Made by make_solid_block(); the state changes with every pass.
@@ -39,6 +41,7 @@ struct SolidBlock {
   Index n_elements = 0;
   Array<Index> corners;        ///< corner a of lane l at 8 a + l; 8 layout.n_corners() a block of 8
   Array<double> state;         ///< layout.n_values() * 8 a block
+  Array<double> damping_time;  ///< see ElementVotes; none: not damped
   Array<double> inverse_mass;  ///< see ElementVotes; none: no mass was added
   Array<Line> nodal;           ///< of tetrahedra: of nodes first_nodal and on, see SolidPass
   Index first_nodal = 0;
@@ -90,6 +93,10 @@ void add_solid_masses(const SolidBlock& block, Nodes& nodes);
 /// Squares of the bounds of the frequencies of the elements at rest in the positions at hand,
 /// damped as the step is [1/s^2], eight a block. Changes nothing.
 Array<double> bounds_of(const SolidBlock& block, const Nodes& nodes);
+
+/// Sets the damping times up that the section asks for, from the frequencies at rest in the
+/// positions at hand, bulk viscosity left out.
+void prepare_damping(SolidBlock& block, const Nodes& nodes);
 
 /// One pass: stress to n, forces at n added to nodes.f (see solid_kernel.hpp). dt_old: t(n) -
 /// t(n-1) [s]. set: instruction set. The bits depend on no number of threads.

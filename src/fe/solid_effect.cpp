@@ -17,7 +17,7 @@ namespace gannet {
 
 namespace {
 
-std::vector<Key> solid_keys() {
+std::vector<Key> own_keys() {
   const std::vector<Key> hourglass{
       {.name = "type",
        .kind = Kind::choice,
@@ -69,6 +69,12 @@ std::vector<Key> solid_keys() {
            .text = "share of the stable step of the elements that is used",
            .fallback = "0.9",
            .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
+}
+
+std::vector<Key> solid_keys() {
+  std::vector<Key> keys = own_keys();
+  for (Key& key : stiffness_damping_keys()) keys.push_back(std::move(key));
+  return keys;
 }
 
 Schema schema() {
@@ -148,6 +154,7 @@ SolidSection read_section(const Keys& solid, const ElasticPlastic& material, Cel
     section.linear_viscosity = viscosity.number_or("linear", section.linear_viscosity);
     section.quadratic_viscosity = viscosity.number_or("quadratic", section.quadratic_viscosity);
   }
+  section.damping = read_stiffness_damping(solid);
   section.smallest_ratio = solid.number_or("collapse_ratio", section.smallest_ratio);
   section.dt_factor = solid.number_or("dt_factor", section.dt_factor);
   return section;
@@ -222,6 +229,7 @@ void state(const Keys& root, Scene& scene) {
     block.name = part.name;
     block.part = number;
     add_solid_masses(block, scene.nodes);
+    prepare_damping(block, scene.nodes);
     scale_masses(keys, block, scene);
     track(scene, block);
     add_measures(scene, block);
@@ -249,6 +257,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .plastic = block.material.plastic(),
                      .hourglass = block.layout.n_points == 1 && !block.layout.tetrahedra(),
                      .viscous = true,
+                     .damping = block.section.damping.given(),
                      .eroded = block.material.failure.given()};
     part.pass = [&scene, &block](const Step& step) {
       const ElementWork work = solid_pass(block, scene.nodes, step.dt_old);

@@ -83,6 +83,23 @@ GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double dt, d
   return sigma;
 }
 
+/// Damping stress of a point, (beta/dt) C : e of the elastic moduli at the start, added to sigma.
+/// factor: beta/dt [-]; kept: that of the step before, which this replaces; e: strain that the
+/// stress follows from; along: strain that it does work on. work: by trapezoids [J/m^3]. Not
+/// inlined: parts without damping do not carry it along.
+__attribute__((noinline)) inline void damping_stress(const SolidConstants& c, const Vec8& factor,
+                                                     double* kept, const Symmetric<Vec8>& e,
+                                                     const Symmetric<Vec8>& along,
+                                                     Symmetric<Vec8>& sigma, Vec8& work) {
+  Symmetric<Vec8> d{};
+  add_elastic(c.law, e, d);
+  d = scaled(d, factor);
+  work = Vec8(0.5) * (contraction(load_stress(kept), along) + contraction(d, along));
+  store_stress(d, kept);
+  sigma = {sigma.xx + d.xx, sigma.yy + d.yy, sigma.zz + d.zz,
+           sigma.xy + d.xy, sigma.yz + d.yz, sigma.zx + d.zx};
+}
+
 /// Isochoric stress of rubber from F = dx/dX. An element may be inside out for a step before it
 /// leaves or stops the run, so J, its determinant, is kept above 0. Not inlined, as
 /// general_stress().

@@ -42,6 +42,7 @@ struct SolidLayout {
   int n_points = 1;       ///< 1 or 8
   SolidShape shape = SolidShape::brick;
   bool has_start = false;  ///< the shape at the start is kept
+  bool damped = false;     ///< in proportion to stiffness: its stress is kept
   [[nodiscard]] bool plastic() const { return n_history > 0; }
   [[nodiscard]] bool plane() const { return shape == SolidShape::quadrilateral; }
   [[nodiscard]] bool tetrahedra() const { return shape == SolidShape::tetrahedron; }
@@ -55,8 +56,12 @@ struct SolidLayout {
   [[nodiscard]] int inverse_volume() const { return viscous_pressure() + 1; }
   /// Q of the four hourglass patterns, x, y, z each [N]; where they are remembered
   [[nodiscard]] int hourglass() const { return inverse_volume() + 1; }
+  /// Damping stress of a point, as stress() [Pa]
+  [[nodiscard]] int damping(int point) const {
+    return hourglass() + (remembers ? 12 : 0) + 6 * point;
+  }
   /// The seven coefficients of the positions at the start, x, y, z each [m]; where they are kept
-  [[nodiscard]] int start() const { return hourglass() + (remembers ? 12 : 0); }
+  [[nodiscard]] int start() const { return damping(damped ? n_points : 0); }
   /// Mean of ln(V/V0) over the nodes, of tetrahedra [-]
   [[nodiscard]] int dilatation() const { return start() + (has_start ? 21 : 0); }
   [[nodiscard]] int n_values() const { return dilatation() + (tetrahedra() ? 1 : 0); }
@@ -84,6 +89,7 @@ struct SolidSums {
   double plastic = 0;          ///< [J], part of it that plastic flow took
   double hourglass = 0;        ///< [J]
   double viscous = 0;          ///< [J], bulk viscosity
+  double damping = 0;          ///< [J], in proportion to stiffness
   double eroded = 0;           ///< [J], left with points that failed
   double omega2 = 0;           ///< largest bound of an element's squared frequency, damped [1/s^2]
   std::int32_t element = -1;   ///< whose it is: 8 block + lane

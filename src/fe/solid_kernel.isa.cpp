@@ -40,6 +40,7 @@ struct SolidLaneSums {
   Vec8 plastic = Vec8(0.0);
   Vec8 hourglass = Vec8(0.0);
   Vec8 viscous = Vec8(0.0);
+  Vec8 damping = Vec8(0.0);
   Vec8 eroded = Vec8(0.0);
   Vec8 omega2 = Vec8(0.0);
   Vec8 block = Vec8(-1.0);
@@ -191,6 +192,20 @@ GANNET_INLINE void take_out_failed(const SolidPass& pass, const KeepCarrying& ke
   keep(Vec8::load(inverse_V0)).store(inverse_V0);
 }
 
+/// Where the part asks for it: damping at a point, its work added to the sums. e, along: as of
+/// damping_stress(); volume: that the point stands for [m^3]; keep: 0 for what carries nothing.
+template <class Keep>
+GANNET_INLINE void add_damping(const SolidPass& pass, const SolidMotion& m, std::int32_t block,
+                               int point, Keep keep, const Symmetric<Vec8>& e,
+                               const Symmetric<Vec8>& along, Vec8 volume, double* state,
+                               SolidLaneSums& sums, Symmetric<Vec8>& sigma) {
+  if (pass.votes.damping_time == nullptr) return;
+  Vec8 work;
+  damping_stress(*pass.constants, keep(damping_per_step(pass.votes, block, pass.dt)),
+                 state + 8 * pass.layout.damping(point), e, along, sigma, work);
+  sums.damping += m.of_alive(work * volume);
+}
+
 /// Adds the forces to the corners and notes the extremes. F: forces on the coefficients; omega2
 /// [1/s^2], damped.
 GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
@@ -214,11 +229,10 @@ GANNET_INLINE void finish_block(const SolidPass& pass, const SolidMotion& m,
   note_extremes(with_added_mass(pass.votes, block, m.of_alive(omega2)), m.shrunk_to, block, sums);
 }
 
-/// By how much damping zeta of the highest mode lowers the stable step, squared: omega^2 times
-/// this.
-GANNET_INLINE Vec8 damped_factor(Vec8 zeta) {
-  const Vec8 factor = sqrt(Vec8(1.0) + zeta * zeta) + zeta;
-  return factor * factor;
+/// omega2 [1/s^2] with what bulk viscosity, zeta, and damping in proportion to stiffness make of
+/// the step.
+GANNET_INLINE Vec8 damped(const SolidPass& pass, std::int32_t block, Vec8 omega2, Vec8 zeta) {
+  return omega2 * damped_factor(zeta + stiffness_ratio(pass.votes, block, omega2));
 }
 
 /// Lame's constants that bound the frequency.
@@ -247,6 +261,18 @@ GANNET_INLINE auto keeper(const SolidPass& pass, const double* state) {
   }
 }
 
+/// The same of one of several points.
+template <PointLaw law>
+GANNET_INLINE auto keeper_of_point(const SolidPass& pass, int point, const double* state) {
+  if constexpr (law == PointLaw::general) {
+    const int damage = pass.constants->history.damage;
+    const int k = pass.layout.plastic_strain(point) + damage;
+    return KeepCarrying{damage < 0 ? Vec8(0.0) : Vec8::load(state + 8 * k)};
+  } else {
+    return KeepAll{};
+  }
+}
+
 /// The mean of the logarithms of volume changes around the corners of tetrahedra; what it has
 /// become since n-1 is the dilatation of the step. Kept in the state.
 GANNET_INLINE Vec8 nodal_dilatation(const SolidPass& pass, const std::int32_t* corners,
@@ -261,15 +287,15 @@ GANNET_INLINE Vec8 nodal_dilatation(const SolidPass& pass, const std::int32_t* c
 }
 
 /// solid_stress() of tetrahedra: their dilatation is that of their nodes, and the work that of
-/// their own motion.
+/// their own motion. e: strain of their own motion, which gets that dilatation.
 template <PointLaw law>
 GANNET_INLINE Symmetric<Vec8> tetrahedron_stress(const SolidPass& pass, const SolidMotion& m,
                                                  const std::int32_t* corners, const Tensor& R,
-                                                 double* state, J2Work<Vec8>& work) {
+                                                 double* state, Symmetric<Vec8>& e,
+                                                 J2Work<Vec8>& work) {
   const Vec8 trace = m.e.xx + m.e.yy + m.e.zz;
   const Vec8 dilatation = m.of_alive(nodal_dilatation(pass, corners, state));
   const Vec8 change = Vec8(1.0 / 3.0) * (dilatation - trace);
-  Symmetric<Vec8> e = m.e;
   e.xx += change;
   e.yy += change;
   e.zz += change;
@@ -289,6 +315,7 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
   const SolidMotion m = solid_motion(pass, corners, state);
   const Tensor R = rotation_of(m.L);
   Symmetric<Vec8> sigma{};
+  Symmetric<Vec8> e = m.e;
   RubberPoint rubber;
   Lame now{Vec8(c.law.bulk - 2.0 / 3.0 * c.law.shear), Vec8(2.0 * c.law.shear)};
   if constexpr (law == PointLaw::hyperelastic) {
@@ -297,11 +324,12 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
     now = {rubber.now.bulk - Vec8(2.0 / 3.0) * rubber.now.shear, Vec8(2.0) * rubber.now.shear};
   } else {
     J2Work<Vec8> work;
-    sigma = pass.layout.tetrahedra() ? tetrahedron_stress<law>(pass, m, corners, R, state, work)
+    sigma = pass.layout.tetrahedra() ? tetrahedron_stress<law>(pass, m, corners, R, state, e, work)
                                      : solid_stress<law>(c, pass.dt, state, m.e, R, work);
     add_work<law>(m, work, m.half.volume, sums);
   }
   const auto keep = keeper<law>(pass, state);
+  add_damping(pass, m, block, 0, keep, e, m.e, m.half.volume, state, sums, sigma);
   const BulkViscosity bulk = add_bulk_viscosity(pass, m, keep, state, sums);
   sigma.xx -= bulk.q;
   sigma.yy -= bulk.q;
@@ -314,7 +342,8 @@ GANNET_INLINE void one_point_block(const SolidPass& pass, std::int32_t block, So
   const Vec8 omega2 = solid_omega2(pass.layout.shape, now.lambda, now.two_mu, m.gram, m.x,
                                    m.inverse_volume, m.inverse_mass, k_h);
   if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
-  finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
+  finish_block(pass, m, corners, block, F, keep(damped(pass, block, omega2, bulk.zeta)), state,
+               sums);
 }
 
 /// One block of eight elements with eight points and a mean dilatation, see solid_element.hpp.
@@ -366,6 +395,8 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
       sigma = solid_stress<law>(c, pass.dt, kept, e, rotation_of(L), work);
     }
     add_work<law>(m, work, half.det, sums);
+    add_damping(pass, m, block, point, keeper_of_point<law>(pass, point, state), e, e, half.det,
+                state, sums, sigma);
     const PointGradient now = point_gradient(m.x, at);
     const Vec8 p = Vec8(1.0 / 3.0) * (sigma.xx + sigma.yy + sigma.zz);
     mean_stress += p * now.det;
@@ -380,7 +411,8 @@ GANNET_INLINE void eight_point_block(const SolidPass& pass, std::int32_t block,
       Vec8(8.0) * m.inverse_mass *
       (moduli.bulk * m.gram.trace * m.inverse_volume + Vec8(2.0) * moduli.shear * largest);
   if constexpr (law == PointLaw::general) take_out_failed(pass, keep, state);
-  finish_block(pass, m, corners, block, F, keep(omega2 * damped_factor(bulk.zeta)), state, sums);
+  finish_block(pass, m, corners, block, F, keep(damped(pass, block, omega2, bulk.zeta)), state,
+               sums);
 }
 
 template <PointLaw law, int points>
@@ -441,6 +473,7 @@ __attribute__((flatten)) void solid_force(const SolidPass& pass, std::int32_t be
   out.plastic = sum(sums.plastic);
   out.hourglass = sum(sums.hourglass);
   out.viscous = sum(sums.viscous);
+  out.damping = sum(sums.damping);
   out.eroded = sum(sums.eroded);
   take_largest(sums.omega2, sums.block, out.omega2, out.element);
   take_smallest(sums.volume_ratio, sums.smallest, out.volume_ratio, out.smallest);

@@ -230,7 +230,7 @@ inline std::string mixed_shells(const std::string& mesh_file) {
 materials: {skin: {card: al_6061_t6}}
 parts:
   vault:
-    shell: {material: skin, thickness: 3 mm, offset: 1 mm}
+    shell: {material: skin, thickness: 3 mm, offset: 1 mm, damping_ratio: 0.02}
     mesh: {file: )case" +
          mesh_file + R"case(}
     map: [x, y, "0.3*x*(1 - x) + 0.02*sin(7*y)"]
@@ -241,17 +241,21 @@ output: {until: 10 s, checkpoint: never}
 )case";
 }
 
-/// A damped rope that swings along itself and breaks in places, and a beam that is bent and
-/// twisted: three chunks of each.
+/// A damped rope that swings along itself and breaks in places, and a damped beam with a hinge that
+/// is bent and twisted until it yields: three chunks of each.
 inline const std::string rope_and_beam = R"case(gannet: 1
-materials: {steel: {density: 7800, young: 210 GPa, poisson: 0.3}}
+materials: {iron: {density: 7800, young: 210 GPa, poisson: 0.3, yield_stress: 100 MPa, hardening_modulus: 5 GPa, kinematic_fraction: 0.5}}
 parts:
   rope:
     cable: {EA: 1 MN, mass_per_length: 1, damping_ratio: 0.05, damping_time: 1e-7 s, strength: 7 kN, prestrain: 0.001}
     shape: {line: {from: [0, 0, 0], to: [12 m, 0, 0], elements: 1200}}
     initial_velocity: ["8*sin(50*x)", "2*cos(3*x)", 0]
   beam:
-    beam: {material: steel, section: {box: {width: 50 mm, height: 80 mm, wall: 5 mm}}}
+    beam:
+      material: iron
+      section: {box: {width: 50 mm, height: 80 mm, wall: 5 mm}}
+      damping_ratio: 0.05
+      releases: {hinge: {nodes: {nearest: [3 m, 1 m, 0], of: beam}, axes: y}}
     shape: {polyline: {points: [[0, 1 m, 0], [3 m, 1 m, 0], [6 m, 1 m, 3 m]], elements: [300, 290]}}
     mass_scaling: {step: 2 us, ceiling: 20 %}
     initial_velocity: ["3*sin(x)", "5*sin(2*x)", "4*cos(7*x)"]
@@ -284,7 +288,7 @@ parts:
     shape: {rod: {from: [0, 0, 0], to: [0, 0, 32.4 mm], radius: 3.2 mm, elements: [3, 3, 42]}}
     initial_velocity: [0, 0, -227 m/s]
   bar:
-    solid: {material: steel, formulation: eight_points}
+    solid: {material: steel, formulation: eight_points, damping_ratio: 0.1}
     shape: {block: {from: [0.1 m, 0, 0], to: [0.2 m, 10 mm, 10 mm], elements: [60, 6, 6]}}
     initial_velocity: ["60*cos(30*x)", "20*sin(90*x)", 0]
   gate:
@@ -292,11 +296,11 @@ parts:
     shape: {block: {from: [0.3 m, 0, 0], to: [0.4 m, 10 mm, 10 mm], elements: [40, 6, 6]}}
     initial_velocity: ["10*cos(30*x)", "2*sin(90*x)", 0]
   pad:
-    solid: {material: gum}
+    solid: {material: gum, damping_time: 1e-7 s}
     shape: {block: {from: [0.3 m, 0.1 m, 0], to: [0.4 m, 0.11 m, 10 mm], elements: [40, 6, 6]}}
     initial_velocity: ["10*cos(30*x)", "2*sin(90*x)", 0]
   sheet:
-    shell: {material: plate, thickness: 1 mm, thickness_change: yes}
+    shell: {material: plate, thickness: 1 mm, thickness_change: yes, damping_ratio: 0.05}
     shape: {plate: {size: [0.1 m, 0.1 m], elements: [50, 50], centre: [0, 0.2 m, 0]}}
     initial_velocity: ["1500*x*abs(x)/0.03", "20*sin(90*x)", "30*cos(50*y)"]
 boundaries:

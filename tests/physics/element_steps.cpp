@@ -156,3 +156,186 @@ TEST_CASE("mass scaling: every kind of element reaches the step and keeps moment
     CHECK(energy_error(*s) < 0.01);
   }
 }
+
+namespace {
+
+/// A part that swings in a mode of its own: text of the part up to the damping, and what of a node
+/// at x the mode is.
+struct Swinging {
+  const char* name;
+  std::string kind;   ///< "solid: {material: soft"
+  std::string shape;  ///< the rest of the part
+  int axis;           ///< of the displacement
+};
+
+std::vector<Swinging> swinging() {
+  const std::string line = "shape: {line: {from: [0, 0, 0], to: [1 m, 0, 0], elements: 16}}";
+  const std::string plate =
+      "shape: {plate: {size: [1 m, 0.1 m], centre: [0.5 m, 0, 0], elements: [16, 1]";
+  const std::string block =
+      "shape: {block: {from: [0, 0, 0], to: [1 m, 0.1 m, 0.1 m], elements: [16, 1, 1]}}";
+  const std::string still = "bulk_viscosity: {linear: 0, quadratic: 0}";
+  return {
+      {"solid", "solid: {material: soft, " + still, block, 0},
+      {"eight points", "solid: {material: soft, formulation: eight_points, " + still, block, 0},
+      {"tetrahedra", "solid: {material: soft, formulation: tetrahedra, " + still, block, 0},
+      {"shell, stretched", "shell: {material: soft, thickness: 50 mm", plate + "}}", 0},
+      {"shell, bent", "shell: {material: soft, thickness: 50 mm", plate + "}}", 2},
+      {"full shell, stretched",
+       "shell: {material: soft, thickness: 50 mm, formulation: fully_integrated", plate + "}}", 0},
+      {"full shell, bent",
+       "shell: {material: soft, thickness: 50 mm, formulation: fully_integrated", plate + "}}", 2},
+      {"triangles, bent", "shell: {material: soft, thickness: 50 mm", plate + ", triangles: yes}}",
+       2},
+      {"beam, stretched",
+       "beam: {material: soft, section: {rectangle: {width: 20 mm, height: "
+       "20 mm}}",
+       line, 0},
+      {"beam, bent",
+       "beam: {material: soft, section: {rectangle: {width: 20 mm, height: "
+       "20 mm}}",
+       line, 2}};
+}
+
+/// Both ends are held in x where it is stretched, supported where it is bent: the mode is sin(pi
+/// x).
+std::unique_ptr<Simulation> swing(const Swinging& part, const std::string& damping) {
+  const char* start = part.axis == 0 ? "[\"1e-3*sin(pi*x)\", 0, 0]" : "[0, 0, \"1e-3*sin(pi*x)\"]";
+  return make_simulation_of_text(fmt::format(
+      "gannet: 1\n"
+      "materials: {{soft: {{density: 1000, young: 1 MPa, poisson: 0}}}}\n"
+      "parts: {{a: {{{}{}}}, {}, initial_velocity: {}}}}}\n"
+      "boundaries:\n"
+      "  left: {{nodes: {{plane: {{point: [0, 0, 0], normal: [1, 0, 0]}}, of: a}}, fix: [{}]}}\n"
+      "  right: {{nodes: {{plane: {{point: [1 m, 0, 0], normal: [1, 0, 0]}}, of: a}}, fix: [{}]}}\n"
+      "output: {{until: 1000 s}}\n",
+      part.kind, damping, part.shape, start, part.axis == 0 ? "x" : "x, z",
+      part.axis == 0 ? "x" : "z"));
+}
+
+/// Half a period [s], and the rate at which the energy falls [1/s], both from the first passage
+/// through the middle to the third: the damping force of level 0, where no rate is known, is zero.
+struct Decay {
+  double half = 0;
+  double rate = 0;
+  double error = 0;
+};
+
+Decay decay_of(Simulation& s, int axis) {
+  const auto coordinate = [&] {
+    double q = 0;
+    for (const Line& x : s.scene.nodes.x) {
+      const double place = axis == 0 ? x.x - std::round(16 * x.x) / 16 : x.z;
+      q += place * std::sin(3.14159265358979 * x.x);
+    }
+    return q;
+  };
+  // After a step positions are those of the next level, the ledger is that of the last one.
+  std::vector<double> t, q, lost;
+  std::vector<double> passed, energy;
+  double start = 0;
+  while (energy.size() < 3) {
+    advance(s.models);
+    if (start == 0) start = ledger_sum(s, "kinetic") + ledger_sum(s, "internal");
+    lost.push_back(ledger_sum(s, "damping"));
+    const std::size_t n = q.size();
+    if (n > 1 && q[n - 2] * q[n - 1] < 0) {
+      const double share = q[n - 2] / (q[n - 2] - q[n - 1]);
+      passed.push_back(t[n - 2] + share * (t[n - 1] - t[n - 2]));
+      energy.push_back(start - lost[n - 1] - share * (lost[n] - lost[n - 1]));
+    }
+    q.push_back(coordinate());
+    t.push_back(time_of(s));
+  }
+  const double time = passed[2] - passed[0];
+  return {0.5 * time, std::log(energy[0] / energy[2]) / time, energy_error(s)};
+}
+
+}  // namespace
+
+TEST_CASE("stiffness damping: a mode decays at beta omega^2/2", "[physics]") {
+  // Its energy falls by exp(-beta omega^2 t) over whole half periods.
+  for (const Swinging& part : swinging()) {
+    INFO(part.name);
+    const auto free = swing(part, "");
+    const double omega = 3.14159265358979 / decay_of(*free, part.axis).half;
+    const double beta = 2 * 0.02 / omega;
+    const auto s = swing(part, fmt::format(", damping_time: {:.9g} s", beta));
+    const Decay d = decay_of(*s, part.axis);
+    WARN(fmt::format("{}: omega {:.3f}, rate over beta omega^2 {:.4f}, energy error {:.1e}",
+                     part.name, omega, d.rate / (beta * omega * omega), d.error));
+    CHECK(d.rate == Approx(beta * omega * omega).epsilon(0.003));
+    CHECK(d.error < 1e-3);
+  }
+}
+
+TEST_CASE("stiffness damping: the step falls as its ratio says", "[physics]") {
+  for (const Swinging& part : swinging()) {
+    INFO(part.name);
+    const double free = first_step(*swing(part, ""));
+    const double damped = first_step(*swing(part, ", damping_ratio: 0.3"));
+    CHECK(damped == Approx(free * (std::sqrt(1.09) - 0.3)).epsilon(1e-12));
+    const double omega = 0.9 * 2 / free;
+    const double beta = 2 * 0.3 / omega;
+    CHECK(first_step(*swing(part, fmt::format(", damping_time: {:.17g} s", beta))) ==
+          Approx(damped).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("stiffness damping: stable up to the step and no further", "[physics]") {
+  // One free element whose highest mode is its bound: a cube that breathes, a square that grows, a
+  // beam that is stretched. They fly, so that most of the energy is no vibration.
+  const std::string unit = "density: 1000, young: 1 MPa, poisson: ";
+  struct Free {
+    std::string poisson, part;
+  };
+  const Free frees[] = {
+      {"0.3",
+       "solid: {material: soft, damping_ratio: 0.4, hourglass: {coefficient: 0}, bulk_viscosity: "
+       "{linear: 0, quadratic: "
+       "0}}, shape: {block: {from: [0, 0, 0], to: [0.1 m, 0.1 m, 0.1 m], elements: [1, 1, "
+       "1]}}, initial_velocity: [\"0.1+0.01*x\", \"0.01*y\", \"0.01*z\"]"},
+      {"0.3",
+       "shell: {material: soft, thickness: 1 mm, formulation: fully_integrated, "
+       "damping_ratio: 0.4}, shape: {plate: {size: [0.1 m, 0.1 m], elements: [1, 1]}}, "
+       "initial_velocity: [\"0.1+0.01*x\", \"0.01*y\", 0]"},
+      {"0.3",
+       "beam: {material: soft, section: {rectangle: {width: 2 mm, height: 2 mm}}, "
+       "damping_ratio: 0.4}, shape: {line: {from: [0, 0, 0], to: [0.1 m, 0, 0], elements: "
+       "1}}, initial_velocity: [\"0.1+0.01*x\", 0, 0]"}};
+  for (const Free& one : frees) {
+    INFO(one.part);
+    // Whether the vibration grows: by what the guards see, or by what it stores.
+    const auto grows = [&](double share) {
+      const auto s = make_simulation_of_text(fmt::format(
+          "gannet: 1\nmaterials: {{soft: {{{}{}}}}}\nparts: {{a: {{{}}}}}\neffects: {{time_step: "
+          "{{scale: {:.9g}}}}}\noutput: {{until: 1000 s}}\n",
+          unit, one.poisson, one.part, share));
+      for (int k = 0; k < 3; ++k) advance(s->models);
+      const double start = ledger_sum(*s, "internal");
+      CHECK(start > 0);
+      try {
+        for (int k = 0; k < 1000; ++k) advance(s->models);
+      } catch (const RunError&) {
+        return true;
+      }
+      return ledger_sum(*s, "internal") > start;
+    };
+    CHECK(!grows(0.99 / 0.9));
+    CHECK(grows(1.02 / 0.9));
+  }
+}
+
+TEST_CASE("stiffness damping: rigid rotation is not damped", "[physics]") {
+  const auto s = make_simulation_of_text(
+      "gannet: 1\n"
+      "materials: {soft: {density: 1000, young: 1 MPa, poisson: 0.3}}\n"
+      "parts: {a: {solid: {material: soft, damping_ratio: 0.5}, shape: {block: {from: [-0.1 m, "
+      "-0.1 m, -0.1 m], to: [0.1 m, 0.1 m, 0.1 m], elements: [2, 2, 2]}}, initial_velocity: "
+      "[\"-y\", \"x\", 0]}}\n"
+      "output: {until: 100 s}\n");
+  run_until(*s, 6.283, [] {});
+  const double lost = ledger_sum(*s, "damping");
+  WARN(fmt::format("of a turn {:.1e} of the energy is damped", lost / ledger_sum(*s, "kinetic")));
+  CHECK(lost < 1e-5 * ledger_sum(*s, "kinetic"));
+}
