@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
+#include "fe/beam.hpp"
 #include "fe/shell.hpp"
 #include "fe/solid.hpp"
 #include "fe/truss.hpp"
@@ -108,14 +109,14 @@ BenchResult bench_sph_pass(int n, Pass pass, bool single = false) {
 
 /// A case of one part of elements, set moving as a wave of 1 m/s and three steps on its way.
 std::unique_ptr<Simulation> moving_elements(const std::string& parts) {
-  auto simulation = make_simulation_of_text(
-      fmt::format("gannet: 1\n"
-                  "materials: {{metal: {{card: al_6061_t6}}, flowing: {{card: "
-                  "copper_ofhc, johnson_cook: {{A: 1 kPa, B: 1 kPa}}}}, gum: "
-                  "{{card: gate_rubber_neo_hookean}}}}\n"
-                  "parts: {}\n"
-                  "output: {{until: 1 s}}\n",
-                  parts));
+  auto simulation = make_simulation_of_text(fmt::format(
+      "gannet: 1\n"
+      "materials: {{steel: {{card: steel}}, metal: {{card: al_6061_t6}}, flowing: {{card: "
+      "copper_ofhc, johnson_cook: {{A: 1 kPa, B: 1 kPa}}}}, gum: "
+      "{{card: gate_rubber_neo_hookean}}}}\n"
+      "parts: {}\n"
+      "output: {{until: 1 s}}\n",
+      parts));
   Nodes& nodes = simulation->scene.nodes;
   for (Index i = 0; i < nodes.n_owned; ++i) {
     const Line& x = nodes.x[i];
@@ -192,6 +193,32 @@ BenchResult bench_cable(int n, bool whole_step) {
   return r;
 }
 
+/// A beam of n elements of a rectangular section, moving. Of "steel" it is elastic, of "metal" it
+/// may yield, of "flowing" every fibre does in every step.
+BenchResult bench_beam(int n, const char* material) {
+  const auto simulation = moving_elements(fmt::format(
+      "{{bar: {{beam: {{material: {1}, section: {{rectangle: {{width: 20 mm, height: 20 "
+      "mm}}}}}}, shape: {{line: {{from: [0, 0, 0], to: [{2} m, 0, 0], elements: {0}}}}}}}"
+      "}}",
+      n, material, 0.1 * n));
+  BeamBlock& block = simulation->scene.store.get<BeamBlocks>().list.front();
+  const double dt = simulation->models.list.front().step.dt;
+  constexpr int times = 20;
+  BenchResult r;
+  r.size = n;
+  r.median_seconds = median_seconds(9,
+                                    [&] {
+                                      for (int k = 0; k < times; ++k) {
+                                        beam_pass(block, simulation->scene.nodes, dt);
+                                      }
+                                    }) /
+                     times;
+  r.rate = n / r.median_seconds;
+  r.unit = "element-steps/s";
+  r.bytes_per_item = 8.0 * static_cast<double>(block.fibres.size() + block.last.size()) / n;
+  return r;
+}
+
 std::vector<Benchmark> all_benchmarks() {
   return {
       {"fe.shell.pass.50k", [] { return bench_shell(224); }},
@@ -210,6 +237,10 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.solid.pass.400k", [] { return bench_solid(74); }},
       {"fe.cable.pass.1k", [] { return bench_cable(1000, false); }},
       {"fe.cable.step.1k", [] { return bench_cable(1000, true); }},
+      {"fe.beam.pass.1k", [] { return bench_beam(1000, "steel"); }},
+      {"fe.beam.may_yield.1k", [] { return bench_beam(1000, "metal"); }},
+      {"fe.beam.flowing.1k", [] { return bench_beam(1000, "flowing"); }},
+      {"fe.shell.damped.50k", [] { return bench_shell(224, ", damping_ratio: 0.05"); }},
       {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
       {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
       {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
