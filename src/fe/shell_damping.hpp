@@ -48,7 +48,8 @@ __attribute__((noinline)) inline void shell_damping(const ShellConstants& c, con
 GANNET_INLINE void add_damping(const ShellPass& pass, std::int32_t block, int g, double* state,
                                const ShellIncrements& d, Vec8 t, Vec8 area, ShellResultants& r,
                                ShellLaneSums& sums) {
-  if (pass.votes.damping_time == nullptr) return;
+  if (pass.votes.damping_time == nullptr) [[likely]]
+    return;
   Vec8 work;
   shell_damping(*pass.constants, damping_per_step(pass.votes, block, pass.dt),
                 state + 8 * pass.layout.damping(g), d, t, r, work);

@@ -199,7 +199,8 @@ GANNET_INLINE void add_damping(const SolidPass& pass, const SolidMotion& m, std:
                                int point, Keep keep, const Symmetric<Vec8>& e,
                                const Symmetric<Vec8>& along, Vec8 volume, double* state,
                                SolidLaneSums& sums, Symmetric<Vec8>& sigma) {
-  if (pass.votes.damping_time == nullptr) return;
+  if (pass.votes.damping_time == nullptr) [[likely]]
+    return;
   Vec8 work;
   damping_stress(*pass.constants, keep(damping_per_step(pass.votes, block, pass.dt)),
                  state + 8 * pass.layout.damping(point), e, along, sigma, work);
