@@ -6,8 +6,9 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <optional>
 
-#include "body/body_mass.hpp"
+#include "body/body_mass_keys.hpp"
 #include "body/effects.hpp"
 #include "body/rigid_body.hpp"
 #include "body/rigid_measures.hpp"
@@ -21,8 +22,7 @@ struct NamedBody {
   std::string name;
   std::vector<int> parts;
   RigidBody* body = nullptr;
-  BodyMass mass;
-  std::string rule;  ///< where the mass comes from
+  WeighedBody mass;
 };
 
 /// Found by scene.store.
@@ -47,50 +47,30 @@ Schema schema() {
                   .text = "about the axes of space, 'free' where forces decide",
                   .choices = {"free"},
                   .variables = {"t"}}};
-  const std::vector<Key> keys{
-      {.name = "parts",
-       .kind = Kind::names,
-       .text = "parts of elements that move as one rigid body",
-       .required = true},
-      {.name = "mass",
-       .unit = dim::mass,
-       .text = "unless said, that of the parts; in the plane for a thickness of 1 m",
-       .limits = positive()},
-      {.name = "density",
-       .unit = dim::density,
-       .text = "of a homogeneous body inside the closed surface of the parts, in place of mass",
-       .limits = positive()},
-      {.name = "centre",
-       .kind = Kind::vector,
-       .unit = dim::length,
-       .text = "centre of mass; unless said, that of the parts"},
-      {.name = "inertia",
-       .kind = Kind::numbers,
-       .unit = dim::inertia,
-       .text = "about the centre along the axes of space: [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] with "
-               "Ixy = -sum m x y; in the plane Izz alone"},
-      {.name = "velocity",
-       .kind = Kind::vector,
-       .unit = dim::velocity,
-       .text = "of the centre at the start"},
-      {.name = "angular_velocity",
-       .kind = Kind::vector,
-       .unit = dim::angular_velocity,
-       .text = "at the start"},
-      motion};
-  return {{"bodies.*", keys[0]},
-          {"bodies.*", keys[1]},
-          {"bodies.*", keys[2]},
-          {"bodies.*", keys[3]},
-          {"bodies.*", keys[4]},
-          {"bodies.*", keys[5]},
-          {"bodies.*", keys[6]},
-          {"bodies.*", keys[7]},
-          {"probes.*",
-           {.name = "body",
-            .kind = Kind::reference,
-            .text = "where this body is, how it moves and what acts on it",
-            .refers_to = "bodies"}}};
+  const std::vector<Key> keys{{.name = "parts",
+                               .kind = Kind::names,
+                               .text = "parts of elements that move as one rigid body",
+                               .required = true},
+                              {.name = "velocity",
+                               .kind = Kind::vector,
+                               .unit = dim::velocity,
+                               .text = "of the centre at the start"},
+                              {.name = "angular_velocity",
+                               .kind = Kind::vector,
+                               .unit = dim::angular_velocity,
+                               .text = "at the start"},
+                              motion};
+  Schema table;
+  std::vector<Key> all = body_mass_keys();
+  all.insert(all.begin(), keys.front());
+  all.insert(all.end(), keys.begin() + 1, keys.end());
+  for (const Key& key : all) table.push_back({"bodies.*", key});
+  table.push_back({"probes.*",
+                   {.name = "body",
+                    .kind = Kind::reference,
+                    .text = "where this body is, how it moves and what acts on it",
+                    .refers_to = "bodies"}});
+  return table;
 }
 
 std::vector<Keys> bodies_of(const Keys& root) {
@@ -168,109 +148,6 @@ void state(const Keys& root, Scene& scene) {
   }
 }
 
-/// The closed surface of all parts of a body; empty after a mistake, which is noted.
-ClosedSurface surface_of(const Keys& keys, const Scene& scene, const NamedBody& body) {
-  ClosedSurface surface{.dimension = scene.dimension};
-  for (const int number : body.parts) {
-    const Part& part = scene.parts[static_cast<std::size_t>(number)];
-    std::vector<Vec3> points;
-    for (Index i = part.nodes.begin; i < part.nodes.end; ++i) {
-      points.push_back(xyz(scene.nodes.x[static_cast<std::size_t>(i)]));
-    }
-    std::vector<Index> cells(part.connectivity.begin(), part.connectivity.end());
-    for (Index& i : cells) i -= part.nodes.begin;
-    const bool solid = part.cell == Cell::tetrahedron || part.cell == Cell::hexahedron ||
-                       (scene.dimension == 2 && part.cell == Cell::quad);
-    add_boundary(points, cells, nodes_per(part.cell), solid, surface);
-  }
-  const std::string why_not = close_surface(surface);
-  if (why_not.empty()) return surface;
-  keys.complain("density", "the surface of the parts " + why_not);
-  return {};
-}
-
-Mat3 inertia_of(const Keys& keys, int dimension) {
-  const std::vector<double>& I = keys.numbers("inertia");
-  const std::size_t wanted = dimension == 2 ? 1 : 6;
-  if (I.size() != wanted) {
-    keys.complain("inertia", dimension == 2
-                                 ? "one number is wanted in the plane: Izz"
-                                 : fmt::format("{} numbers; six are wanted: [Ixx, Iyy, Izz, Ixy, "
-                                               "Ixz, Iyz]",
-                                               I.size()));
-    return Mat3::Identity();
-  }
-  Mat3 m;
-  if (dimension == 2) return I[0] * Mat3::Identity();
-  m << I[0], I[3], I[4], I[3], I[1], I[5], I[4], I[5], I[2];
-  return m;
-}
-
-std::string words_of(const Scene& scene, const NamedBody& body) {
-  std::string names;
-  for (const int p : body.parts) {
-    names += (names.empty() ? "" : ", ") + scene.parts[static_cast<std::size_t>(p)].name;
-  }
-  return names;
-}
-
-/// Puts what the case says in the place of what follows from the nodes.
-void take_given(const Keys& keys, const Scene& scene, NamedBody& body) {
-  BodyMass& m = body.mass;
-  const bool alone = m.mass > 0;  // the nodes have masses
-  const Vec3 centre = m.centre;
-  if (keys.has("mass")) {
-    if (alone) m.inertia *= keys.number("mass") / m.mass;
-    m.mass = keys.number("mass");
-  }
-  if (keys.has("centre")) m.centre = keys.vector("centre");
-  if (keys.has("inertia")) {
-    m.inertia = inertia_of(keys, scene.dimension);
-  } else if (keys.has("centre") && alone && (m.centre - centre).norm() > 1e-9) {
-    keys.complain(
-        "centre",
-        fmt::format("another one than that of the parts' masses, ({:.6g}, {:.6g}, {:.6g}) "
-                    "m, wants an 'inertia' beside it",
-                    centre.x(), centre.y(), centre.z()));
-  } else if (!alone && keys.has("mass")) {
-    keys.complain("mass",
-                  "the parts have no mass that could be scaled: 'inertia' and 'centre' are "
-                  "wanted beside it, or 'density' in its place");
-  }
-  if (!alone && keys.has("mass") && keys.has("inertia") && !keys.has("centre")) {
-    keys.complain("mass", "the parts have no mass that a centre would follow from; say 'centre'");
-  }
-}
-
-/// Mass, centre and inertia of a body. False after a mistake, which is noted.
-bool weigh(const Keys& keys, const Scene& scene, const std::vector<Index>& members,
-           NamedBody& body) {
-  const std::size_t n_mistakes = keys.mistakes().messages().size();
-  if (keys.has("density")) {
-    for (const char* key : {"mass", "centre", "inertia"}) {
-      if (keys.has(key)) keys.complain(key, "stands beside 'density', from which it follows");
-    }
-    const ClosedSurface surface = surface_of(keys, scene, body);
-    if (surface.facets.empty()) return false;
-    body.mass = mass_inside(surface, keys.number("density"));
-    body.rule = "homogeneous inside the surface of " + words_of(scene, body);
-  } else {
-    body.mass = mass_of_nodes(scene.nodes, members);
-    body.rule = "the masses of the nodes of " + words_of(scene, body);
-    take_given(keys, scene, body);
-  }
-  if (keys.mistakes().messages().size() > n_mistakes) return false;
-  if (scene.dimension == 2) flatten(body.mass);
-  if (!(body.mass.mass > 0)) {
-    keys.complain("", "the parts have no mass; say 'density', or 'mass', 'centre' and 'inertia'");
-    return false;
-  }
-  if (least_inertia(body.mass) > 0) return true;
-  keys.complain(keys.has("inertia") ? "inertia" : "parts",
-                "the inertia is not positive definite: about some axis nothing resists a rotation");
-  return false;
-}
-
 constexpr std::array<const char*, 6> components{"x", "y", "z", "rx", "ry", "rz"};
 
 /// In the plane a body moves along x and y and turns about z.
@@ -329,20 +206,23 @@ std::vector<Index> members_of(const Scene& scene, const NamedBody& body) {
 /// Puts the node of a body at its centre and makes the body.
 void make_body(const Keys& keys, Scene& scene, NamedBody& body) {
   const std::vector<Index> members = members_of(scene, body);
-  if (members.empty() || !weigh(keys, scene, members, body)) return;
+  if (members.empty()) return;
+  const std::optional<WeighedBody> weighed = weigh_body(keys, scene, body.parts, members);
+  if (!weighed) return;
+  body.mass = *weighed;
   Vec3 v = keys.has("velocity") ? keys.vector("velocity") : Vec3(Vec3::Zero());
   Vec3 omega = keys.has("angular_velocity") ? keys.vector("angular_velocity") : Vec3(Vec3::Zero());
   const BodyMotion motion = read_motion(keys, scene.dimension, v, omega);
   const Index node =
       scene.parts[static_cast<std::size_t>(scene.part_number(part_name(body.name)))].nodes.begin;
-  set_xyz(scene.nodes.x[static_cast<std::size_t>(node)], body.mass.centre);
+  set_xyz(scene.nodes.x[static_cast<std::size_t>(node)], body.mass.of.centre);
   set_xyz(scene.nodes.v[static_cast<std::size_t>(node)], v);
   body.body = &make_rigid_body(scene, {.name = body.name,
                                        .where = keys.where(),
                                        .node = node,
                                        .members = members,
-                                       .mass = body.mass.mass,
-                                       .inertia = body.mass.inertia,
+                                       .mass = body.mass.of.mass,
+                                       .inertia = body.mass.of.inertia,
                                        .omega = omega,
                                        .motion = motion});
 }
@@ -391,9 +271,9 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   for (const NamedBody& body : scene.store.get<NamedBodies>().list) {
     if (body.body == nullptr) continue;
     const Keys keys = root.map("bodies").map(body.name);
-    const BodyMass& m = body.mass;
+    const BodyMass& m = body.mass.of;
     const auto open = [&](const char* key, const std::string& chosen) {
-      if (!keys.has(key)) list.push_back({keys.path() + "." + key, chosen, body.rule});
+      if (!keys.has(key)) list.push_back({keys.path() + "." + key, chosen, body.mass.rule});
     };
     open("mass", fmt::format("{:.6g} kg", m.mass));
     open("centre", text_of(m.centre, "m"));
