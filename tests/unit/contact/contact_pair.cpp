@@ -210,6 +210,23 @@ TEST_CASE("contact: a restart makes the same list, a sort only renames particles
   CHECK(scene.index_lists.size() == 1);
 }
 
+TEST_CASE("contact: nodes that follow a body vote with what a force on them moves", "[contact]") {
+  Scene scene;
+  Builder b = bouncer(0, {0.25, 0.5, 0.06}, {0, 0, 0});
+  b.particle_mass = 0.5;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1000);
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  CHECK(c.rate.omega2 == Approx(2000));  // of the particle; nodes without mass alone do not count
+  auto& followers = scene.store.get<Followers>();
+  followers.leader = {3, 3, 3, -1, -1};
+  followers.inverse_mass = {10, 20, 30, 0, 0};
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  // 2 k sum N w = 2 * 500 * (3/8 10 + 1/8 20 + 3/8 30)
+  CHECK(c.rate.node == 3);
+  CHECK(c.rate.omega2 == Approx(17500));
+}
+
 TEST_CASE("contact: particles far away make no pairs and no vote", "[contact]") {
   Scene scene;
   bouncer(1, {0.5, 0.5, 5}, {0, 0, 0}).fill(scene);
