@@ -124,14 +124,23 @@ void operations(const Keys& root, Scene& scene, Models&) {
   }
 }
 
+/// It brings no operation by which that could be told.
+Presence presence(const Keys& root, Scene&) {
+  const std::vector<Keys> parts = parts_with(root, kind);
+  if (parts.empty()) return {Presence::State::off, fmt::format("no part has the key {}", kind)};
+  return {Presence::State::on,
+          parts.front().path() + "." + kind + " at " + parts.front().where(kind).text()};
+}
+
 }  // namespace
 
 Effect rigid_surface_effect() {
-  return {.name = "rigid surface",
+  return {.name = kind,
           .schema = schema,
           .parts = add_parts,
           .state = state,
-          .operations = operations};
+          .operations = operations,
+          .presence = presence};
 }
 
 }  // namespace gannet
