@@ -16,7 +16,7 @@
 #include "support/temporary_folder.hpp"
 #include "time/energy_balance.hpp"
 #include "time/leapfrog.hpp"
-#include "time/link.hpp"
+#include "plan/link.hpp"
 #include "time/step.hpp"
 
 using namespace gannet;

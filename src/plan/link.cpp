@@ -1,4 +1,4 @@
-#include "time/link.hpp"
+#include "plan/link.hpp"
 
 namespace gannet {
 
