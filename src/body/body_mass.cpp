@@ -27,6 +27,20 @@ BodyMass mass_inside(const ClosedSurface& surface, double density) {
   return {density * m.volume, m.centre, density * (m.second.trace() * Mat3::Identity() - m.second)};
 }
 
+BodyMass with_nodes(const BodyMass& body, const Nodes& nodes, const std::vector<Index>& members) {
+  const BodyMass more = mass_of_nodes(nodes, members);
+  if (!(more.mass > 0)) return body;
+  BodyMass both;
+  both.mass = body.mass + more.mass;
+  both.centre = (body.mass * body.centre + more.mass * more.centre) / both.mass;
+  for (const BodyMass* one : {&body, &more}) {
+    const Vec3 r = one->centre - both.centre;
+    both.inertia +=
+        one->inertia + one->mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return both;
+}
+
 void flatten(BodyMass& body) { body.inertia = body.inertia(2, 2) * Mat3::Identity(); }
 
 double least_inertia(const BodyMass& body) {

@@ -22,6 +22,9 @@ BodyMass mass_of_nodes(const Nodes& nodes, const std::vector<Index>& members);
 /// moment (`volume_moments()`).
 BodyMass mass_inside(const ClosedSurface& surface, double density);
 
+/// The body together with point masses at the nodes: about the centre of both.
+BodyMass with_nodes(const BodyMass& body, const Nodes& nodes, const std::vector<Index>& members);
+
 /// For a plane case: only the inertia about z counts; the others are set to it, as nothing can turn
 /// the body about them.
 void flatten(BodyMass& body);

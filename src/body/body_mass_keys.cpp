@@ -103,7 +103,8 @@ std::vector<Key> body_mass_keys() {
 
 std::optional<WeighedBody> weigh_body(const Keys& keys, const Scene& scene,
                                       const std::vector<int>& parts,
-                                      const std::vector<Index>& members) {
+                                      const std::vector<Index>& members,
+                                      const std::vector<Index>& tied) {
   const std::size_t n_mistakes = keys.mistakes().messages().size();
   WeighedBody body;
   if (keys.has("density")) {
@@ -120,6 +121,8 @@ std::optional<WeighedBody> weigh_body(const Keys& keys, const Scene& scene,
     take_given(keys, scene, body.of);
   }
   if (keys.mistakes().messages().size() > n_mistakes) return {};
+  body.of = with_nodes(body.of, scene.nodes, tied);
+  if (!tied.empty()) body.rule += ", with the nodes tied to it";
   if (scene.dimension == 2) flatten(body.of);
   if (!(body.of.mass > 0)) {
     keys.complain("", "the parts have no mass; say 'density', or 'mass', 'centre' and 'inertia'");

@@ -145,6 +145,8 @@ void state(const Keys& root, Scene& scene) {
     NamedBody& body = scene.store.get<NamedBodies>().list.emplace_back();
     body.name = keys.name();
     if (keys.has("parts")) take_parts(root, keys, scene, taken, body);
+    PartGroup& group = scene.groups.emplace_back(PartGroup{.name = body.name, .parts = body.parts});
+    group.parts.push_back(scene.part_number(part_name(body.name)));
   }
 }
 
@@ -205,11 +207,14 @@ std::vector<Index> members_of(const Scene& scene, const NamedBody& body) {
 
 /// Puts the node of a body at its centre and makes the body.
 void make_body(const Keys& keys, Scene& scene, NamedBody& body) {
-  const std::vector<Index> members = members_of(scene, body);
+  std::vector<Index> members = members_of(scene, body);
   if (members.empty()) return;
-  const std::optional<WeighedBody> weighed = weigh_body(keys, scene, body.parts, members);
+  const std::vector<Index>& tied = scene.group(body.name)->nodes;
+  const std::optional<WeighedBody> weighed = weigh_body(keys, scene, body.parts, members, tied);
   if (!weighed) return;
   body.mass = *weighed;
+  members.insert(members.end(), tied.begin(), tied.end());
+  std::ranges::sort(members);
   Vec3 v = keys.has("velocity") ? keys.vector("velocity") : Vec3(Vec3::Zero());
   Vec3 omega = keys.has("angular_velocity") ? keys.vector("angular_velocity") : Vec3(Vec3::Zero());
   const BodyMotion motion = read_motion(keys, scene.dimension, v, omega);
@@ -233,6 +238,14 @@ bool in_one_model(const Keys& keys, const Scene& scene, Models& models, const Na
     if (&models.of_part(scene, p) == model) continue;
     keys.complain("parts", fmt::format("part '{}' advances in another model than the body",
                                        scene.parts[static_cast<std::size_t>(p)].name));
+    return false;
+  }
+  for (const Index node : scene.group(body.name)->nodes) {
+    const Model& other = models.of_node(node);
+    if (&other == model) continue;
+    keys.complain("", fmt::format("a node that is tied to it advances in model '{}', the body in "
+                                  "'{}'; name both in one model",
+                                  other.name, model->name));
     return false;
   }
   return true;

@@ -32,6 +32,15 @@ int Scene::part_number(const std::string& name) const {
   return -1;
 }
 
+PartGroup* Scene::group(const std::string& name) {
+  const auto found = std::ranges::find(groups, name, &PartGroup::name);
+  return found == groups.end() ? nullptr : &*found;
+}
+
+const PartGroup* Scene::group(const std::string& name) const {
+  return const_cast<Scene*>(this)->group(name);
+}
+
 const Field* Scene::field(const std::string& name) const {
   for (const Field& f : fields) {
     if (f.name == name) return &f;

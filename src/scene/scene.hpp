@@ -72,6 +72,13 @@ struct Plane {
   Vec3 spin_old = Vec3::Zero();
 };
 
+/// Parts that move as one, and so advance in one model; a case may name them by one name.
+struct PartGroup {
+  std::string name;
+  std::vector<int> parts;    ///< numbers in scene.parts
+  std::vector<Index> nodes;  ///< of other parts, which move along
+};
+
 /// A list of particle indices that someone keeps; permuted whenever particles are sorted.
 struct IndexList {
   std::string name;
@@ -108,6 +115,12 @@ class Store {
     if (!slot) slot = std::make_shared<T>();
     return *static_cast<T*>(slot.get());
   }
+  /// The state of type T; null where nobody made it.
+  template <class T>
+  [[nodiscard]] const T* find() const {
+    const auto slot = slots_.find(std::type_index(typeid(T)));
+    return slot == slots_.end() ? nullptr : static_cast<const T*>(slot->second.get());
+  }
   template <class T>
   [[nodiscard]] bool has() const {
     return slots_.contains(std::type_index(typeid(T)));
@@ -126,6 +139,7 @@ struct Scene {
   Resting resting;             ///< those of them that rest
   Array<Index> particle_part;  ///< part number of each particle (tracked field "part")
   std::vector<Part> parts;
+  std::vector<PartGroup> groups;
   std::vector<Plane> planes;
   std::vector<Field> fields;
   std::vector<IndexList> index_lists;
@@ -146,6 +160,8 @@ struct Scene {
     return resting.n == 0 ? r : Range{r.begin, std::max(r.begin, std::min(r.end, awake().end))};
   }
   [[nodiscard]] int part_number(const std::string& name) const;  ///< -1 where there is none
+  [[nodiscard]] PartGroup* group(const std::string& name);       ///< null where there is none
+  [[nodiscard]] const PartGroup* group(const std::string& name) const;
   [[nodiscard]] const Field* field(const std::string& name) const;
 };
 

@@ -314,3 +314,34 @@ parts:
   for_particles(ball->scene,
                 [](std::size_t, const Vec3& x, const Vec3&) { REQUIRE(x.norm() > 0.495); });
 }
+
+TEST_CASE("ties: a body that hangs on a line pulls with its weight", "[physics]") {
+  const auto s = make_simulation_of_text(R"case(gannet: 1
+materials: {steel: {density: 7800, young: 210 GPa, poisson: 0.3}}
+parts:
+  plate:
+    shell: {material: steel, thickness: 10 mm}
+    shape: {plate: {size: [0.2, 0.2], elements: [2, 2], centre: [0, 0, 0]}}
+  line: {cable: {EA: 1 MN, mass_per_length: 0.5 kg/m}, shape: {line: {from: [0, 0, 1], to: [0, 0, 0], elements: 10}}}
+bodies: {weight: {parts: plate}}
+ties: {hook: {nodes: {nearest: [0, 0, 0], of: line}, to: weight}}
+boundaries: {top: {nodes: {nearest: [0, 0, 1], of: line}, fix: [x, y, z]}}
+loads: {gravity: [0, 0, -9.81 m/s^2]}
+output: {until: 10 s, checkpoint: never}
+)case");
+  const double plate = 0.2 * 0.2 * 0.01 * 7800;
+  const double node = 0.5 * 0.5 * 0.1;
+  const RigidBody& body = s->scene.store.get<RigidBodies>().list.front();
+  CHECK(s->scene.nodes.x[static_cast<std::size_t>(body.node)].w ==
+        Approx(plate + node).epsilon(1e-12));
+  double force = 0;
+  double weight = 0;
+  run_until(*s, 0.1, [] {});
+  while (s->models.list.front().step.t < 1.1) {  // a mean over many bounces
+    advance(s->models);
+    const double dt = s->models.list.front().step.dt_old;
+    force += dt * measured(s->scene, "tie.hook.force", 2);
+    weight += dt * plate * 9.81;
+  }
+  CHECK(force == Approx(weight).epsilon(0.01));
+}

@@ -1,0 +1,126 @@
+// ties.NAME: nodes of one part that hang on a rigid body. A tied node becomes one of the body's
+// own: its mass moves with the body, and what pulls at it pulls at the body, so that momentum is
+// kept to rounding and there is no spring whose stiffness would limit the step. The force of the
+// tie is what the rest of the tied part, and the weight of the node, put on the body.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "contact/effects.hpp"
+#include "plan/effect.hpp"
+#include "scene/node_set.hpp"
+
+namespace gannet {
+
+namespace {
+
+struct Tie {
+  std::string name;
+  Location where;
+  std::vector<Index> nodes;
+  Vec3 force = Vec3::Zero();  ///< on the body at this level [N]
+};
+
+/// Found by scene.store.
+struct Ties {
+  std::deque<Tie> list;
+};
+
+Schema schema() {
+  return {{"ties.*", node_set_key("nodes", true)},
+          {"ties.*",
+           {.name = "to",
+            .kind = Kind::reference,
+            .text = "the rigid body that they hang on",
+            .required = true,
+            .refers_to = "bodies"}}};
+}
+
+const Part& part_of(const Scene& scene, Index node) {
+  const auto found =
+      std::ranges::find_if(scene.parts, [&](const Part& p) { return p.nodes.contains(node); });
+  return *found;
+}
+
+/// Why a node cannot be tied to a group; "" where it can.
+std::string trouble_with(const Scene& scene, const PartGroup& group, Index node) {
+  const Part& part = part_of(scene, node);
+  const auto is_mine = [&](const PartGroup& g) {
+    return std::ranges::any_of(
+        g.parts, [&](int p) { return &scene.parts[static_cast<std::size_t>(p)] == &part; });
+  };
+  if (is_mine(group)) {
+    return fmt::format("part '{}' belongs to body '{}'; a part of something else is tied to it",
+                       part.name, group.name);
+  }
+  for (const PartGroup& other : scene.groups) {
+    if (is_mine(other)) {
+      return fmt::format(
+          "part '{}' belongs to the rigid body '{}'; two bodies are merged by naming "
+          "the parts of both in one",
+          part.name, other.name);
+    }
+    if (std::ranges::find(other.nodes, node) != other.nodes.end()) {
+      return fmt::format("a node of '{}' at ({:.6g}, {:.6g}, {:.6g}) m is tied to '{}' already",
+                         part.name, scene.nodes.x[static_cast<std::size_t>(node)].x,
+                         scene.nodes.x[static_cast<std::size_t>(node)].y,
+                         scene.nodes.x[static_cast<std::size_t>(node)].z, other.name);
+    }
+  }
+  return "";
+}
+
+void make_tie(const Keys& keys, Scene& scene) {
+  PartGroup* group = scene.group(keys.word("to"));
+  const std::vector<Index> nodes = select_nodes(keys.map("nodes"), scene);
+  if (group == nullptr || nodes.empty()) return;
+  for (const Index node : nodes) {
+    const std::string trouble = trouble_with(scene, *group, node);
+    if (!trouble.empty()) return keys.complain("nodes", trouble);
+  }
+  group->nodes.insert(group->nodes.end(), nodes.begin(), nodes.end());
+  Tie& tie = scene.store.get<Ties>().list.emplace_back();
+  tie.name = keys.name();
+  tie.where = keys.where();
+  tie.nodes = nodes;
+  scene.measures.push_back(
+      {"tie." + tie.name + ".force", "N", {"x", "y", "z"}, [&tie](double* out) {
+         for (int d = 0; d < 3; ++d) out[d] = tie.force[d];
+       }});
+}
+
+void state(const Keys& root, Scene& scene) {
+  if (!root.has("ties")) return;
+  const Keys ties = root.map("ties");
+  for (const std::string& name : ties.names()) make_tie(ties.map(name), scene);
+}
+
+/// Stands after all that pushes the nodes in their own model.
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!root.has("ties")) return;
+  for (Tie& tie : scene.store.get<Ties>().list) {
+    models.of_node(tie.nodes.front())
+        .plan.add({.name = "force of tie " + tie.name,
+                   .reason = asked_for_at(tie.where),
+                   .stage = Stage::force,
+                   .reads = {"f"},
+                   .run = [&scene, &tie](const Step&) {
+                     tie.force.setZero();
+                     for (const Index i : tie.nodes) {
+                       tie.force += xyz(scene.nodes.f[static_cast<std::size_t>(i)]);
+                     }
+                   }});
+  }
+}
+
+}  // namespace
+
+Effect ties_effect() {
+  return {.name = "ties", .schema = schema, .state = state, .operations = operations};
+}
+
+}  // namespace gannet
