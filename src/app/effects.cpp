@@ -13,6 +13,7 @@
 #include "study/study_file.hpp"
 #include "time/guards.hpp"
 #include "time/leapfrog.hpp"
+#include "time/models_effect.hpp"
 
 namespace gannet {
 
@@ -33,6 +34,7 @@ Schema case_schema() {
 std::vector<Effect> make_table() {
   return {
       leapfrog_effect(),    // first: clears forces, kicks and drifts
+      models_effect(),      //
       gravity_effect(),     // says what gravity is before others ask the scene
       sponge_effect(),      // after the free kick, before motions that are given
       relaxation_effect(),  // likewise

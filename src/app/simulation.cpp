@@ -63,8 +63,13 @@ std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
   source.mistakes.throw_if_any();
   finish_masses(scene);
 
-  Model& model = simulation->models.list.emplace_back();
-  model.ranges = {{0, scene.nodes.n_owned}};
+  for (const Effect& e : effects()) {
+    if (e.models != nullptr) e.models(root, scene, simulation->models);
+  }
+  source.mistakes.throw_if_any();
+  if (simulation->models.list.empty()) {
+    simulation->models.list.emplace_back().ranges = {{0, scene.nodes.n_owned}};
+  }
   k = 0;
   for (const Effect& e : effects()) {
     ++k;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "plan/link.hpp"
+
 namespace gannet {
 
 namespace {
@@ -20,6 +22,12 @@ struct BodyVector {
   bool turns = false;  ///< in the plane its component along z counts, else the others
   Sample sample;
 };
+
+/// What impulses of a slower model add to the force that the body was kicked with.
+Excess excess_of(const Scene& scene, const RigidBody& body) {
+  return excess_of_impulses(scene, xyz(scene.nodes.x[static_cast<std::size_t>(body.node)]),
+                            [&](Index i) { return std::ranges::binary_search(body.members, i); });
+}
 
 std::vector<BodyVector> vectors_of(const Scene& scene, const Model& model, const RigidBody& body) {
   const Nodes& nodes = scene.nodes;
@@ -38,8 +46,16 @@ std::vector<BodyVector> vectors_of(const Scene& scene, const Model& model, const
        {"wx", "wy", "wz"},
        true,
        [&body, &step] { return angular_velocity_at_level(body, step.dt); }},
-      {"force", "N", {"fx", "fy", "fz"}, false, [&body] { return body.force; }},
-      {"moment", "N m", {"mx", "my", "mz"}, true, [&body] { return body.moment; }},
+      {"force",
+       "N",
+       {"fx", "fy", "fz"},
+       false,
+       [&scene, &body]() -> Vec3 { return body.force - excess_of(scene, body).force; }},
+      {"moment",
+       "N m",
+       {"mx", "my", "mz"},
+       true,
+       [&scene, &body]() -> Vec3 { return body.moment - excess_of(scene, body).moment; }},
       {"reaction",
        "N",
        {"reaction x", "reaction y", "reaction z"},

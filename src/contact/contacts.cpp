@@ -270,14 +270,17 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   for (NodeToSegment& c : scene.store.get<NodeToSegments>().list) {
     const Keys keys = contacts.map(c.name);
     set_law(scene, keys, c);
-    Model& model = models.of_part(scene, c.surface_part);
-    if (&model != &models.of_node(scene.particles.begin)) {
+    const Model& water = models.of_node(scene.particles.begin);
+    const Model& surface = models.of_part(scene, c.surface_part);
+    if (models.rank(surface) < models.rank(water)) {
       keys.complain("between",
-                    "the two parts advance in different models, with steps of their "
-                    "own; contact across models is not built yet");
+                    fmt::format("the surface advances in model '{}', slower than that of the "
+                                "particles, '{}': particles touch what is in their model or in a "
+                                "faster one",
+                                surface.name, water.name));
       continue;
     }
-    add_node_to_segment(scene, c, model, models.ledger);
+    add_node_to_segment(scene, c, models);
   }
   for (NodesOnPlanes& c : scene.store.get<NodesOnPlanesList>().list) {
     const Part& part = scene.parts[static_cast<std::size_t>(c.part)];

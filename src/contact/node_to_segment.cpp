@@ -132,14 +132,33 @@ void add_measures(Scene& scene, NodeToSegment& c, bool friction) {
                             }});
 }
 
+bool is_linked(const NodeToSegment& c) { return !c.link.nodes.empty(); }
+
+/// Paths of rows and nodes; those of nodes of another model are not known here and stay 0.
 void find_paths(const Scene& scene, NodeToSegment& c, const Step& step) {
   for (std::size_t i = 0; i < c.surface.node.size(); ++i) {
-    c.node_path[i] = work_path(scene.nodes, c.surface.node[i], step);
+    c.node_path[i] =
+        is_linked(c) ? WorkPath(WorkPath::Zero()) : work_path(scene.nodes, c.surface.node[i], step);
   }
   for (std::size_t r = 0; r < c.gaps.size(); ++r) {
     if (c.gaps[r].segment < 0 || !(c.gaps[r].penetration > 0)) continue;
     c.point_path[r] = work_path(scene.nodes, scene.particles.begin + c.candidates.point[r], step);
   }
+}
+
+void add_linked_force(Scene& scene, NodeToSegment& c, const char* kind, LedgerEntry* entry,
+                      const std::vector<Vec3>& of_rows) {
+  if (entry == nullptr) return;
+  const std::size_t n = c.surface.node.size();
+  LinkedForce& force = c.linked.emplace_back();
+  force.entry = entry;
+  force.of_rows = &of_rows;
+  force.f_level.assign(n, {});
+  force.f.assign(n, {});
+  Field f = line_field("contact." + c.name + ".linked_" + kind, "N", "", Over::scene, force.f_level,
+                       0, 3, GhostRule::none);
+  f.owner = "contact " + c.name;
+  scene.fields.push_back(std::move(f));
 }
 
 /// The operation that adds up the works, and its ledger entries.
@@ -161,8 +180,13 @@ void add_work(Scene& scene, NodeToSegment& c, Model& model, Ledger& ledger) {
     normal->add_work(-work(c.forces.normal));
     if (friction != nullptr) friction->add_work(-work(c.forces.friction));
     if (damping != nullptr) damping->add_work(-work(c.forces.damping));
+    for (LinkedForce& force : c.linked) add_linked_work(in, c.link, force);
   };
   model.plan.add(std::move(op));
+  if (!is_linked(c)) return;
+  add_linked_force(scene, c, "normal", normal, c.forces.normal);
+  add_linked_force(scene, c, "friction", friction, c.forces.friction);
+  add_linked_force(scene, c, "damping", damping, c.forces.damping);
 }
 
 std::string who_limits(const Scene& scene, const NodeToSegment& c) {
@@ -226,7 +250,16 @@ void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first)
   c.rate = largest_rate(in, c.law, c.node_stiffness);
 }
 
-void add_node_to_segment(Scene& scene, NodeToSegment& c, Model& model, Ledger& ledger) {
+void add_node_to_segment(Scene& scene, NodeToSegment& c, Models& models) {
+  Model& model = models.of_node(scene.particles.begin);
+  Model& of_surface = models.of_part(scene, c.surface_part);
+  if (&of_surface != &model) {
+    c.link.name = "contact " + c.name;
+    c.link.slow = &model;
+    c.link.fast = &of_surface;
+    c.link.nodes.assign(c.surface.node.begin(), c.surface.node.end());
+    open_link(scene, c.link);
+  }
   Operation op;
   op.name = "contact " + c.name;
   op.reason = asked_for_at(c.where);
@@ -241,7 +274,8 @@ void add_node_to_segment(Scene& scene, NodeToSegment& c, Model& model, Ledger& l
   op.stable_dt = [&c] { return contact_step(c.rate.omega2, c.law.damping); };
   op.limited_by = [&scene, &c] { return who_limits(scene, c); };
   model.plan.add(std::move(op));
-  add_work(scene, c, model, ledger);
+  if (is_linked(c)) close_link(scene, c.link, models.ledger);
+  add_work(scene, c, model, models.ledger);
 }
 
 }  // namespace gannet

@@ -14,7 +14,9 @@
 #include "base/keys.hpp"
 #include "contact/force.hpp"
 #include "contact/gap.hpp"
+#include "contact/linked_work.hpp"
 #include "contact/surface.hpp"
+#include "plan/link.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "search/segment_search.hpp"
@@ -49,6 +51,10 @@ struct NodeToSegment {
   std::vector<WorkPath> point_path, node_path;
   Scattered scattered;
   ContactRate rate;
+
+  /// Of a surface in a faster model: link.nodes are those of the surface, else none.
+  Link link;
+  std::deque<LinkedForce> linked;
 };
 
 /// All contacts of a scene; scene.store.get<NodeToSegments>().
@@ -71,7 +77,8 @@ bool search(Scene& scene, NodeToSegment& contact, const Step& step);
 /// Gaps, forces and scatter at this level.
 void apply_contact(Scene& scene, NodeToSegment& contact, const Step& step, bool first);
 
-/// Adds the operations of the contact to a model's plan and its entries to the ledger.
-void add_node_to_segment(Scene& scene, NodeToSegment& contact, Model& model, Ledger& ledger);
+/// Adds the operations of the contact to the plan of the particles' model and its entries to the
+/// ledger. The surface may be in a faster model.
+void add_node_to_segment(Scene& scene, NodeToSegment& contact, Models& models);
 
 }  // namespace gannet

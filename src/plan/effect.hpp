@@ -39,6 +39,9 @@ struct Effect {
   /// After all parts have their nodes: allocates its state, tracks its fields, adds its masses.
   /// Optional.
   void (*state)(const Keys& root, Scene& scene) = nullptr;
+  /// After all masses are known: divides the nodes among models, slowest first. Of at most one
+  /// effect; without any there is one model. Optional.
+  void (*models)(const Keys& root, Scene& scene, Models& models) = nullptr;
   /// Adds its operations to the plans of the models it acts in. Optional.
   void (*operations)(const Keys& root, Scene& scene, Models& models) = nullptr;
   /// Whether the case has it, after the scene was built. Optional: without it that follows from

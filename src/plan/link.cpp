@@ -22,7 +22,9 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
     if (nodes.rotating.contains(i)) set_xyz(link.moment[k], xyz(nodes.torque[i]));
     const Vec3 f = xyz(link.force[k]);
     const Vec3 x = xyz(nodes.x[i]);
+    link.path[k] = {};
     if (link.slow->step.dt_old > 0) {
+      set_xyz(link.path[k], x - xyz(link.x_level[k]));
       entry.value += 0.5 * (f + xyz(link.f_level[k])).dot(x - xyz(link.x_level[k]));
     }
     set_xyz(link.x_level[k], x);
@@ -32,14 +34,15 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
 }
 
 void apply(Nodes& nodes, Link& link) {
+  link.ratio = 0;
   if (!same_level(link)) return;
   const Step& slow = link.slow->step;
   const Step& fast = link.fast->step;
-  const double ratio = (slow.dt_old + slow.dt) / (fast.dt_old + fast.dt);
+  link.ratio = (slow.dt_old + slow.dt) / (fast.dt_old + fast.dt);
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const Index i = link.nodes[k];
-    add_xyz(nodes.f[i], ratio * xyz(link.force[k]));
-    if (nodes.rotating.contains(i)) add_xyz(nodes.torque[i], ratio * xyz(link.moment[k]));
+    add_xyz(nodes.f[i], link.ratio * xyz(link.force[k]));
+    if (nodes.rotating.contains(i)) add_xyz(nodes.torque[i], link.ratio * xyz(link.moment[k]));
   }
 }
 
@@ -58,12 +61,33 @@ void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
 
 }  // namespace
 
+Excess excess_of_impulses(const Scene& scene, const Vec3& about,
+                          const std::function<bool(Index)>& counts) {
+  Excess excess;
+  const Links* links = scene.store.find<Links>();
+  if (links == nullptr) return excess;
+  for (const Link* link : links->list) {
+    if (link->ratio == 0) continue;
+    for (std::size_t k = 0; k < link->nodes.size(); ++k) {
+      const Index i = link->nodes[k];
+      if (!counts(i)) continue;
+      const Vec3 f = (link->ratio - 1) * xyz(link->force[k]);
+      const Vec3 arm = xyz(scene.nodes.x[static_cast<std::size_t>(i)]) - about;
+      excess.force += f;
+      excess.moment += arm.cross(f) + (link->ratio - 1) * xyz(link->moment[k]);
+    }
+  }
+  return excess;
+}
+
 void open_link(Scene& scene, Link& link) {
+  scene.store.get<Links>().list.push_back(&link);
   const std::size_t n = link.nodes.size();
   link.force.assign(n, {});
   link.moment.assign(n, {});
   link.x_level.assign(n, {});
   link.f_level.assign(n, {});
+  link.path.assign(n, {});
   const auto track = [&](const char* what, const char* unit, Array<Line>& lines) {
     Field f = line_field("link." + link.name + "." + what, unit, "", Over::scene, lines, 0, 4,
                          GhostRule::none);
@@ -90,11 +114,12 @@ void close_link(Scene& scene, Link& link, Ledger& ledger) {
        .reads = {"f", "x"},
        .owns = {"link." + link.name},
        .run = [&scene, &link, &entry](const Step&) { collect(scene.nodes, link, entry); }});
-  link.fast->plan.add({.name = "apply link " + link.name,
-                       .reason = reason,
-                       .stage = Stage::accelerate,
-                       .writes = {"f"},
-                       .run = [&scene, &link](const Step&) { apply(scene.nodes, link); }});
+  // Before anything there looks at forces that are whole.
+  link.fast->plan.add_first({.name = "apply link " + link.name,
+                             .reason = reason,
+                             .stage = Stage::accelerate,
+                             .writes = {"f"},
+                             .run = [&scene, &link](const Step&) { apply(scene.nodes, link); }});
   link.fast->plan.add(
       {.name = "link energy " + link.name,
        .reason = reason,

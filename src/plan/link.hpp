@@ -1,6 +1,10 @@
 // A link: forces that operations of a slow model put on nodes of a faster one.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 
@@ -21,7 +25,26 @@ struct Link {
   Array<Line> moment;   ///< slow slot: moment [N m], for rotating nodes
   Array<Line> x_level;  ///< position at the slow model's last level [m]
   Array<Line> f_level;  ///< slow force at that level [N]
+  double ratio =
+      0;  ///< what `force` was multiplied by in this step of the fast model; 0: not applied
+  Array<Line> path;  ///< displacement from the last level to this one, in the slow model's step [m]
 };
+
+/// All links of a scene, as they were opened: scene.store.get<Links>().
+struct Links {
+  std::vector<const Link*> list;
+};
+
+/// What the impulses of slow forces add to f beyond these forces themselves, sum (ratio - 1) f_s
+/// over the linked nodes that `counts` says [N], and the same about a point, with moments [N m].
+/// Off f, it leaves the force that acts at a coinciding level. Between accelerate and the end of
+/// the step.
+struct Excess {
+  Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+};
+Excess excess_of_impulses(const Scene& scene, const Vec3& about,
+                          const std::function<bool(Index)>& counts);
 
 /// Opens the link: in the slow model's force stage, clears the forces of the linked nodes. Call it
 /// before the operations of the slow model that push them are added.
@@ -31,6 +54,8 @@ void open_link(Scene& scene, Link& link);
 /// slow model's force stage the forces move to the slow slot; in the fast model's accelerate stage
 /// they are applied at coinciding levels; the ledger's entry "link" holds what the impulses and
 /// the paths differ by. The link must stay where it is.
+/// Operations of the slow model measure the work of their forces on the linked nodes along
+/// link.path, as a trapezoid of the forces at its ends: work_path() knows nothing of the substeps.
 void close_link(Scene& scene, Link& link, Ledger& ledger);
 
 }  // namespace gannet

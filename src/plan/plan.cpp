@@ -56,6 +56,18 @@ Operation& Plan::add(Operation operation) {
   return stage.back();
 }
 
+Operation& Plan::add_first(Operation operation) {
+  auto& stage = at(operation.stage);
+  stage.push_front(std::move(operation));
+  return stage.front();
+}
+
+std::size_t Models::rank(const Model& model) const {
+  std::size_t place = 0;
+  while (place < list.size() && &list[place] != &model) ++place;
+  return place;
+}
+
 Model& Models::of_node(Index node) {
   for (Model& m : list) {
     for (const Range& r : m.ranges) {

@@ -102,6 +102,8 @@ class Plan {
  public:
   /// Appends to its stage; within a stage the order is the order of adding.
   Operation& add(Operation operation);
+  /// Puts it before all that its stage holds so far.
+  Operation& add_first(Operation operation);
   std::deque<Operation>& at(Stage stage) { return stages_[static_cast<std::size_t>(stage)]; }
   [[nodiscard]] const std::deque<Operation>& at(Stage stage) const {
     return stages_[static_cast<std::size_t>(stage)];
@@ -129,6 +131,8 @@ struct Models {
   Ledger ledger;
   /// The model that holds a node.
   Model& of_node(Index node);
+  /// The place of a model in the list: the smaller, the slower.
+  [[nodiscard]] std::size_t rank(const Model& model) const;
   Model& of_part(const Scene& scene, int part) { return of_node(scene.parts[part].nodes.begin); }
 };
 

@@ -84,6 +84,10 @@ Sample bodies_sample() {
   return {[] { return std::make_unique<WatchedRun>(bodies); }, 150, false};
 }
 
+Sample moored_sample() {
+  return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
+}
+
 Sample solids_sample(const std::string& formulation) {
   std::vector<std::string> set = small_bar;
   set.push_back("parts.rod.solid.formulation=" + formulation);
@@ -357,6 +361,12 @@ TEST_CASE("same bits: output, checkpoints and the end time change nothing in a d
 
 TEST_CASE("same bits: waves over a bed, sponge and relaxation, 1, 2, 3 and 5 threads", "[bits]") {
   check_threads(sea_sample());
+}
+
+TEST_CASE("same bits: models at steps of their own, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(moored_sample());
+  check_restart(moored_sample());
 }
 
 TEST_CASE("same bits: rigid bodies, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

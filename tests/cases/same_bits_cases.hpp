@@ -209,6 +209,37 @@ probes: {box: {body: box}}
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// A box that floats askew in a pool of 100 x 30 particles, held by two lines that are tied to it
+/// and advance with it in eight or more substeps a step of the water.
+inline const std::string moored = R"case(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 10 mm, skin: 0.06}
+    fill: {box: {from: [0, 0, 0], to: [1 m, 0.3 m, 0]}, outside: box}
+    start: hydrostatic
+  box:
+    rigid_surface: {}
+    shape: {polyline: {points: [[0.4, 0.27, 0], [0.6, 0.3, 0], [0.6, 0.4, 0], [0.4, 0.37, 0], [0.4, 0.27, 0]], elements: [8, 4, 8, 4]}}
+  left: {cable: {EA: 0.2 MN, mass_per_length: 0.5 kg/m}, shape: {line: {from: [0.1, 0.5, 0], to: [0.4, 0.37, 0], elements: 12}}}
+  right: {cable: {EA: 0.2 MN, mass_per_length: 0.5 kg/m}, shape: {line: {from: [0.9, 0.5, 0], to: [0.6, 0.4, 0], elements: 12}}}
+bodies: {box: {parts: box, density: 400, velocity: [0.3 m/s, -2 m/s, 0], angular_velocity: [0, 0, 3 rad/s]}}
+ties:
+  aft: {nodes: {nearest: [0.4, 0.37, 0], of: left}, to: box}
+  fore: {nodes: {nearest: [0.6, 0.4, 0], of: right}, to: box}
+models: {water: {parts: pool}, lines: {parts: [left, right]}}
+boundaries:
+  tank: {planes: {x: [0, 1 m], y: 0}}
+  piles: {nodes: {plane: {point: [0, 0.5, 0], normal: [0, 1, 0]}, of: left}, fix: [x, y]}
+  others: {nodes: {plane: {point: [0, 0.5, 0], normal: [0, 1, 0]}, of: right}, fix: [x, y]}
+contacts: {hull: {between: [pool, box], friction: 0.2, damping: 0.05}}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+effects: {viscosity: {alpha: 0.1}, xsph: {epsilon: 0.3}}
+probes: {box: {body: box}}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 /// A roof of two slopes that yields as it is dented, 2,000 shells: warped, folded, thinning.
 inline std::string shells(const std::string& formulation) {
   return R"case(gannet: 1

@@ -93,9 +93,9 @@ inline void check_same(const Bits& a, const Bits& b) {
   }
 }
 
-/// A simulation that writes down, at the end of look of every step, all that a history may hold:
-/// the time, every entry of the ledger and the energy balance; and every measure, but only at each
-/// `measures_every`th step, because some take long.
+/// A simulation that writes down, at the end of look of every step (of the slowest model), all that
+/// a history may hold: the time, every entry of the ledger and the energy balance; and every
+/// measure, but only at each `measures_every`th step, because some take long.
 struct WatchedRun {
   std::unique_ptr<Simulation> s;
   std::map<std::int64_t, std::vector<double>> history;  ///< by number of the step
@@ -133,7 +133,9 @@ struct WatchedRun {
     s->models.list.back().plan.add({.name = "watch",
                                     .reason = "rule: this test",
                                     .stage = Stage::look,
-                                    .run = [this](const Step& step) { write_down(step); }});
+                                    .run = [this](const Step& step) {
+                                      if (step.coincides) write_down(at());
+                                    }});
   }
   void add_measures(std::vector<double>& row) {
     for (const Measure& m : s->scene.measures) {

@@ -12,11 +12,11 @@
 #include "body/rigid_body.hpp"
 #include "fe/truss.hpp"
 #include "output/checkpoint.hpp"
+#include "plan/link.hpp"
 #include "scene/draft.hpp"
 #include "support/temporary_folder.hpp"
 #include "time/energy_balance.hpp"
 #include "time/leapfrog.hpp"
-#include "plan/link.hpp"
 #include "time/step.hpp"
 
 using namespace gannet;

@@ -80,7 +80,7 @@ struct Run {
     Model& m = models.list.emplace_back();
     m.ranges = {{0, s.nodes.n_owned}};
     add_leapfrog(s, m, models.ledger);
-    if (contact != nullptr) add_node_to_segment(s, *contact, m, models.ledger);
+    if (contact != nullptr) add_node_to_segment(s, *contact, models);
     Operation vote;
     vote.name = "fixed step";
     vote.run = [](const Step&) {};

@@ -1,0 +1,186 @@
+// models.NAME.parts: parts that advance at a step of their own (multi-model subcycling). What no
+// model names advances with the first, which is the slowest.
+#include "time/models_effect.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gannet {
+
+namespace {
+
+Schema schema() {
+  return {{"models.*",
+           {.name = "parts",
+            .kind = Kind::names,
+            .text = "parts and bodies that advance together, at a step of their own; the slowest "
+                    "model comes first, and has what none names",
+            .required = true}}};
+}
+
+constexpr int nowhere = -1;
+
+/// Which model each part of a scene belongs to.
+struct Division {
+  std::vector<int> model_of_part;
+  std::vector<Keys> keys;  ///< of the models
+};
+
+/// The parts that a name stands for: a group of parts that move as one, or one part, with those
+/// that move with it.
+std::vector<int> parts_named(const std::string& name, Scene& scene) {
+  if (const PartGroup* group = scene.group(name)) return group->parts;
+  const int number = scene.part_number(name);
+  if (number < 0) return {};
+  for (const PartGroup& group : scene.groups) {
+    if (std::ranges::find(group.parts, number) != group.parts.end()) return group.parts;
+  }
+  return {number};
+}
+
+std::string all_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const PartGroup& group : scene.groups) names.push_back(group.name);
+  for (const Part& part : scene.parts) {
+    if (part.cell != Cell::point) names.push_back(part.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void take(const std::string& name, int model, Scene& scene, Division& division) {
+  const Keys& keys = division.keys[static_cast<std::size_t>(model)];
+  const std::vector<int> parts = parts_named(name, scene);
+  if (parts.empty()) {
+    keys.complain("parts", fmt::format("there is no part or body '{}'; there are: {}", name,
+                                       all_names(scene)));
+  }
+  for (const int part : parts) {
+    int& chosen = division.model_of_part[static_cast<std::size_t>(part)];
+    if (chosen != nowhere && chosen != model) {
+      keys.complain("parts", fmt::format("'{}' advances in model '{}' already{}", name,
+                                         division.keys[static_cast<std::size_t>(chosen)].name(),
+                                         parts.size() > 1 ? " (a body is in one model)" : ""));
+      return;
+    }
+    chosen = model;
+  }
+}
+
+/// Particles are sorted among each other, whatever their part.
+void keep_particles_together(const Scene& scene, Division& division) {
+  int first = nowhere;
+  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+    if (!scene.parts[k].is_particles()) continue;
+    if (first == nowhere) first = static_cast<int>(k);
+    if (division.model_of_part[k] == division.model_of_part[static_cast<std::size_t>(first)]) {
+      continue;
+    }
+    const auto model = static_cast<std::size_t>(division.model_of_part[k]);
+    division.keys[model].complain(
+        "parts",
+        fmt::format("'{}' and '{}' are made of particles, which all advance in one model",
+                    scene.parts[static_cast<std::size_t>(first)].name, scene.parts[k].name));
+  }
+}
+
+/// A body that no model names advances with the fastest of what is tied to it.
+void follow_ties(const PartGroup& group, const Scene& scene, Division& division) {
+  const auto model_of = [&](int part) -> int& {
+    return division.model_of_part[static_cast<std::size_t>(part)];
+  };
+  if (model_of(group.parts.front()) != nowhere) return;
+  int fastest = nowhere;
+  for (const Index node : group.nodes) {
+    for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+      if (scene.parts[k].nodes.contains(node)) {
+        fastest = std::max(fastest, model_of(static_cast<int>(k)));
+      }
+    }
+  }
+  for (const int part : group.parts) model_of(part) = fastest;
+}
+
+Division divide(const Keys& models, Scene& scene) {
+  Division division;
+  division.model_of_part.assign(scene.parts.size(), nowhere);
+  for (const std::string& name : models.names()) {
+    division.keys.push_back(models.map(name));
+    for (const std::string& part : division.keys.back().words("parts")) {
+      take(part, static_cast<int>(division.keys.size()) - 1, scene, division);
+    }
+  }
+  for (const PartGroup& group : scene.groups) follow_ties(group, scene, division);
+  for (int& model : division.model_of_part) model = std::max(model, 0);
+  keep_particles_together(scene, division);
+  return division;
+}
+
+/// The node ranges of the parts of one model, joined where they touch.
+std::vector<Range> ranges_of(const Scene& scene, const Division& division, int model) {
+  std::vector<Range> ranges;
+  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+    const Range& nodes = scene.parts[k].nodes;
+    if (division.model_of_part[k] == model && !nodes.empty()) ranges.push_back(nodes);
+  }
+  std::ranges::sort(ranges, {}, &Range::begin);
+  std::vector<Range> joined;
+  for (const Range& r : ranges) {
+    if (!joined.empty() && joined.back().end == r.begin) {
+      joined.back().end = r.end;
+    } else {
+      joined.push_back(r);
+    }
+  }
+  return joined;
+}
+
+void make_models(const Keys& root, Scene& scene, Models& models) {
+  if (!root.has("models")) return;
+  const Keys keys = root.map("models");
+  const Division division = divide(keys, scene);
+  int number = 0;
+  for (const Keys& one : division.keys) {
+    Model& model = models.list.emplace_back();
+    model.name = one.name();
+    model.ranges = ranges_of(scene, division, number++);
+    if (model.ranges.empty()) one.complain("parts", "no nodes are left for this model");
+  }
+}
+
+/// Says once where a model that stands before another allows the smaller step: nothing goes wrong
+/// then, and nothing is gained.
+void warn_of_order(Scene& scene, const Models& models) {
+  for (std::size_t k = 1; k < models.list.size(); ++k) {
+    const Model& slow = models.list[k - 1];
+    const Model& fast = models.list[k];
+    if (!(slow.vote.dt < fast.vote.dt)) continue;
+    scene.warnings.push_back(fmt::format(
+        "models: '{}' stands before '{}', but its first step is smaller ({:.3g} s, {}; {:.3g} s): "
+        "list the slowest model first",
+        slow.name, fast.name, slow.vote.dt, slow.vote.who, fast.vote.dt));
+  }
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!root.has("models")) return;
+  models.list.back().plan.add({.name = "order of models",
+                               .reason = asked_for_at(root.where("models")),
+                               .stage = Stage::look,
+                               .run = [&scene, &models](const Step& step) {
+                                 if (step.coincides && models.list.front().step.n == 0) {
+                                   warn_of_order(scene, models);
+                                 }
+                               }});
+}
+
+}  // namespace
+
+Effect models_effect() {
+  return {.name = "models", .schema = schema, .models = make_models, .operations = operations};
+}
+
+}  // namespace gannet

@@ -1,0 +1,124 @@
+// Parts at steps of their own, joined by contact and ties: momentum, energy, and the same motion as
+// in one model.
+#include <fmt/format.h>
+
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A box in a pool, held by two stiff lines that are tied to its upper corners.
+std::string moored(bool subcycled) {
+  const std::string models = "models: {water: {parts: pool}, lines: {parts: [left, right]}}\n";
+  return R"case(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  pool:
+    sph: {material: water, spacing: 20 mm}
+    fill: {box: {from: [-0.6, -0.4, 0], to: [0.6, 0, 0]}, outside: box}
+    start: hydrostatic
+  box:
+    rigid_surface: {}
+    shape: {polyline: {points: [[-0.2, -0.08, 0], [0.2, -0.08, 0], [0.2, 0.12, 0], [-0.2, 0.12, 0], [-0.2, -0.08, 0]], elements: [10, 5, 10, 5]}}
+  left: {cable: {EA: 1 MN, mass_per_length: 1 kg/m}, shape: {line: {from: [-1, 0.5, 0], to: [-0.2, 0.12, 0], elements: 20}}}
+  right: {cable: {EA: 1 MN, mass_per_length: 1 kg/m}, shape: {line: {from: [1, 0.5, 0], to: [0.2, 0.12, 0], elements: 20}}}
+bodies: {box: {parts: box, density: 500}}
+ties:
+  aft: {nodes: {nearest: [-0.2, 0.12, 0], of: left}, to: box}
+  fore: {nodes: {nearest: [0.2, 0.12, 0], of: right}, to: box}
+boundaries:
+  tank: {planes: {x: [-0.6, 0.6], y: -0.4}}
+  aft_pile: {nodes: {nearest: [-1, 0.5, 0], of: left}, fix: [x, y]}
+  fore_pile: {nodes: {nearest: [1, 0.5, 0], of: right}, fix: [x, y]}
+contacts: {hull: {between: [pool, box]}}
+loads: {gravity: [0, -9.81 m/s^2, 0]}
+effects: {viscosity: {alpha: 0.1}}
+)case" + (subcycled ? models : "") +
+         "output: {until: 10 s, checkpoint: never}\n";
+}
+
+/// A drop that hits a floating body with a line tied to it, without gravity.
+const std::string struck = R"case(gannet: 1
+dimension: 2
+materials: {water: {density: 1000, c0: 30 m/s}}
+parts:
+  drop:
+    sph: {material: water, spacing: 20 mm}
+    fill: {box: {from: [-0.1, 0.13, 0], to: [0.2, 0.43, 0]}}
+    initial_velocity: [0.2, -3, 0]
+  plate:
+    rigid_surface: {mass_per_area: 40 kg/m^2}
+    shape: {line: {from: [-0.3, 0.1, 0], to: [0.3, 0.1, 0], elements: 20}}
+  tail: {cable: {EA: 0.2 MN, mass_per_length: 2 kg/m}, shape: {line: {from: [0.3, 0.1, 0], to: [0.9, 0.1, 0], elements: 20}}}
+bodies: {plate: {parts: plate}}
+ties: {end: {nodes: {nearest: [0.3, 0.1, 0], of: tail}, to: plate}}
+models: {water: {parts: drop}, rest: {parts: tail}}
+contacts: {hit: {between: [drop, plate]}}
+effects: {viscosity: {alpha: 0.1}}
+output: {until: 1 s, checkpoint: never}
+)case";
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero();
+  double scale = 0;
+};
+
+Momenta momenta_of(const Scene& scene) {
+  Momenta sum;
+  for (Index i = 0; i < scene.nodes.n_owned; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3 p = scene.nodes.x[k].w * xyz(scene.nodes.v[k]);
+    sum.linear += p;
+    sum.scale += p.norm();
+  }
+  return sum;
+}
+
+double height_of_body(const Simulation& s) { return measured(s.scene, "body.box.position", 1); }
+
+void run_to(Simulation& s, double t) {
+  while (s.models.list.front().step.t < t) advance(s.models);
+}
+
+}  // namespace
+
+TEST_CASE("models: water and a body with a line at their own steps keep momentum", "[physics]") {
+  const auto s = make_simulation_of_text(struck);
+  advance(s->models);
+  const Momenta before = momenta_of(s->scene);
+  run_to(*s, 0.12);
+  const Momenta after = momenta_of(s->scene);
+  const Model& fast = s->models.list.back();
+  fmt::print("struck body: {} steps of the water, {} of line and body; momentum {:.2g}\n",
+             s->models.list.front().step.n, fast.step.n,
+             (after.linear - before.linear).norm() / before.scale);
+  CHECK(fast.step.n > 5 * s->models.list.front().step.n);
+  CHECK(measured(s->scene, "body.plate.velocity", 1) < -0.3);  // it was hit
+  CHECK((after.linear - before.linear).norm() < 1e-12 * before.scale);
+}
+
+TEST_CASE("models: a moored box moves as in one model", "[physics]") {
+  const auto one = make_simulation_of_text(moored(false));
+  const auto two = make_simulation_of_text(moored(true));
+  double worst = 0;
+  double range = 0;
+  for (double t = 0.05; t < 0.5; t += 0.05) {
+    run_to(*one, t);
+    run_to(*two, one->models.list.front().step.t);
+    worst = std::max(worst, std::abs(height_of_body(*two) - height_of_body(*one)));
+    range = std::max(range, std::abs(height_of_body(*one) - 0.02));
+  }
+  const double external = std::abs(ledger_sum(*one, "gravity"));
+  const double link = std::abs(ledger_sum(*two, "link"));
+  fmt::print(
+      "moored box: {} and {} steps of the water, height differs by {:.2g} of {:.3g} m, link "
+      "{:.2g} J of {:.3g} J, energy {:.2g} and {:.2g}\n",
+      one->models.list.front().step.n, two->models.list.front().step.n, worst, range, link,
+      external, energy_error(*one), energy_error(*two));
+  CHECK(two->models.list.front().step.n * 4 < one->models.list.front().step.n);
+  CHECK(worst < 0.03 * range);
+  CHECK(energy_error(*two) < 2e-3);
+}
