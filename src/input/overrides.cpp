@@ -58,16 +58,16 @@ TextNode* step_into(TextNode& map, const Key* key, const std::string& name, cons
   return &map.items.back();
 }
 
-/// "effects.xsph=off" takes a map out of the case; "=on" leaves the one that is there, or makes one
-/// of defaults. Returns false where the key is no map or the value another one.
+/// "effects.xsph=off" or "models=off" takes a map out of the case; "=on" leaves the one that is
+/// there, or makes one of defaults. Returns false where the key is no map or the value another one.
 bool switch_map(TextNode& root, const std::vector<std::string>& path, const Key* key,
                 const std::string& value) {
-  if (key == nullptr || key->kind != Kind::map || path.size() < 2) return false;
+  if (key == nullptr || key->kind != Kind::map || path.empty()) return false;
   const Key* active = find_key(*key, "active");
   if (active != nullptr && active->name == "active") return false;  // written as in the file
   if (value == "on") return true;
   if (value != "off") return false;
-  TextNode* parent = find_at(root, {path.begin(), path.end() - 1});
+  TextNode* parent = path.size() == 1 ? &root : find_at(root, {path.begin(), path.end() - 1});
   std::erase_if(parent->items, [&](const TextNode& item) { return item.key == path.back(); });
   return true;
 }

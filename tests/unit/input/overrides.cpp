@@ -27,6 +27,7 @@ TEST_CASE("override: keys that the file does not have are added; lists are YAML"
 
 TEST_CASE("override: off takes a map out of the case, on keeps it or makes one", "[input]") {
   CHECK_FALSE(read(text, {"effects.xsph=off"})->keys().map("effects").given("xsph"));
+  CHECK_FALSE(read(text, {"effects=off"})->keys().given("effects"));
   const auto kept = read(text, {"effects.xsph.epsilon=0.25", "effects.xsph=on"});
   CHECK(kept->keys().map("effects").map("xsph").number("epsilon") == 0.25);
   CHECK(read(text, {"effects.xsph=off", "effects.xsph=on"})->keys().map("effects").has("xsph"));
