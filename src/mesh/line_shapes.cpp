@@ -1,5 +1,6 @@
 #include "mesh/line_shapes.hpp"
 
+#include "mesh/mesh_keys.hpp"
 #include "mesh/shape_numbers.hpp"
 
 namespace gannet {
@@ -97,10 +98,15 @@ std::vector<Key> line_shape_keys() {
 bool is_line_shape(const Keys& shape) { return shape.has("line") || shape.has("polyline"); }
 
 LineMesh line_mesh(const Keys& part) {
+  if (part.has("shape") && part.has("mesh")) {
+    part.complain("mesh", "stands beside 'shape'; a part has one of them");
+    return {};
+  }
+  if (part.has("mesh")) return file_lines(part.map("mesh"));
   if (!part.has("shape") || !is_line_shape(part.map("shape"))) {
     part.mistakes().add(part.where(), part.path() +
-                                          ": its line is missing; a 'shape' (line or polyline) is "
-                                          "wanted");
+                                          ": its line is missing; a 'shape' (line or polyline) or "
+                                          "a 'mesh' is wanted");
     return {};
   }
   const Keys shape = part.map("shape");

@@ -10,7 +10,7 @@
 
 namespace gannet {
 
-/// A chain of elements of two nodes over its own points.
+/// Elements of two nodes over their own points: a chain, or a frame from a file.
 struct LineMesh {
   std::vector<Vec3> points;  ///< along the line [m]
   std::vector<Index> cells;  ///< 2 indices into points an element
@@ -27,8 +27,8 @@ std::vector<Key> line_shape_keys();
 /// Whether the map `shape` names one of them.
 bool is_line_shape(const Keys& shape);
 
-/// The line that the part asks for under `shape`. Notes every mistake that it finds in the case's
-/// list and then returns an empty mesh. Throws nothing else.
+/// The lines that the part asks for under `shape` or `mesh`. Notes every mistake that it finds in
+/// the case's list and then returns an empty mesh. Throws nothing else.
 LineMesh line_mesh(const Keys& part);
 
 }  // namespace gannet

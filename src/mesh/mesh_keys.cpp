@@ -23,23 +23,24 @@ Key mesh_key() {
   return {
       .name = "mesh",
       .kind = Kind::map,
-      .text = "a surface, or a volume of solids, from a file",
-      .keys = {{.name = "file",
-                .kind = Kind::path,
-                .text = "a gmsh file (.msh 4.1 or 2.2, ASCII)",
-                .required = true},
-               {.name = "unit",
-                .kind = Kind::choice,
-                .text = "unit of the lengths in the file",
-                .fallback = "m",
-                .choices = units},
-               {.name = "group",
-                .kind = Kind::text,
-                .text = "name of the physical surface or volume to take; all cells unless said"},
-               {.name = "move",
-                .kind = Kind::vector,
-                .unit = dim::length,
-                .text = "vector by which the mesh is moved"}}};
+      .text = "a surface, a volume of solids, or lines of beams or cables, from a file",
+      .keys = {
+          {.name = "file",
+           .kind = Kind::path,
+           .text = "a gmsh file (.msh 4.1 or 2.2, ASCII)",
+           .required = true},
+          {.name = "unit",
+           .kind = Kind::choice,
+           .text = "unit of the lengths in the file",
+           .fallback = "m",
+           .choices = units},
+          {.name = "group",
+           .kind = Kind::text,
+           .text = "name of the physical surface, volume or curve to take; all cells unless said"},
+          {.name = "move",
+           .kind = Kind::vector,
+           .unit = dim::length,
+           .text = "vector by which the mesh is moved"}}};
 }
 
 Key fill_key() {
@@ -123,6 +124,13 @@ Schema mesh_schema() {
   const Key shape{
       .name = "shape", .kind = Kind::map, .text = "a surface of elements", .keys = shape_keys()};
   return {{"parts.*", shape}, {"parts.*", mesh_key()}, {"parts.*", fill_key()}};
+}
+
+LineMesh file_lines(const Keys& keys) {
+  if (!keys.has("file")) return {};
+  LineMesh mesh = read_msh_lines(keys.word("file"), group_of(keys), keys.mistakes());
+  place_points(keys, mesh.points);
+  return mesh;
 }
 
 VolumeMesh volume_mesh(const Keys& part, int dimension) {

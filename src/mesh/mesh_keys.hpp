@@ -7,6 +7,7 @@
 #include "base/keys.hpp"
 #include "base/math.hpp"
 #include "base/schema.hpp"
+#include "mesh/line_shapes.hpp"
 #include "mesh/volume_shapes.hpp"
 
 namespace gannet {
@@ -29,5 +30,8 @@ VolumeMesh volume_mesh(const Keys& part, int dimension);
 /// Notes every mistake that it finds (also those of a mesh file, at their line in it) in the
 /// case's list and then returns an empty mesh. Throws nothing else.
 SurfaceMesh surface_mesh(const Keys& part);
+
+/// The lines of the file that a map `mesh` names. Mistakes as of surface_mesh().
+LineMesh file_lines(const Keys& mesh);
 
 }  // namespace gannet

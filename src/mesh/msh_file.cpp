@@ -112,9 +112,9 @@ struct CellType {
   int dimension;
   std::size_t n;
 };
-constexpr std::array cell_types = {CellType{2, 2, 3}, CellType{3, 2, 4}, CellType{4, 3, 4},
-                                   CellType{5, 3, 8}};
-constexpr std::array types_of_higher_order = {9,  10, 11, 12, 13, 14, 16, 17, 18, 19, 20,
+constexpr std::array cell_types = {CellType{1, 1, 2}, CellType{2, 2, 3}, CellType{3, 2, 4},
+                                   CellType{4, 3, 4}, CellType{5, 3, 8}};
+constexpr std::array types_of_higher_order = {8,  9,  10, 11, 12, 13, 14, 16, 17, 18, 19, 20,
                                               21, 22, 23, 29, 30, 31, 36, 37, 38, 92, 93};
 constexpr std::array types_of_other_volumes = {6, 7};  // prisms, pyramids
 
@@ -246,7 +246,7 @@ void add_cell(Lines& in, MshContent& content, Tag type, std::size_t first) {
   if (content.dimension == 3 && content.n_nodes != 0 && content.n_nodes != n) {
     in.fail("tetrahedra and hexahedra stand in one part; take a part for each by its 'group'");
   }
-  content.n_nodes = content.dimension == 3 ? n : 4;
+  content.n_nodes = content.dimension == 2 ? 4 : n;
   content.cells.push_back(cell);
 }
 
@@ -307,17 +307,18 @@ void read_sections(Lines& in, MshContent& content) {
 }
 
 void check_group(const Lines& in, const MshContent& content) {
-  const bool surfaces = content.dimension == 2;
+  constexpr std::array kinds = {"", "curve", "surface", "volume"};
+  constexpr std::array lacks = {"", "no lines", "no quadrilaterals and no triangles",
+                                "no tetrahedra and no hexahedra"};
+  const auto dimension = static_cast<std::size_t>(content.dimension);
   if (content.cells.empty() && content.wanted_group.empty()) {
-    in.fail(surfaces ? "the file holds no quadrilaterals and no triangles"
-                     : "the file holds no tetrahedra and no hexahedra");
+    in.fail(fmt::format("the file holds {}", lacks[dimension]));
   }
   if (!content.cells.empty()) return;
   std::string names;
   for (const auto& [name, tag] : content.group_tags) names += (names.empty() ? "" : ", ") + name;
   in.fail(fmt::format("no {0} cell belongs to the group '{1}'; physical {0}s of this file: {2}",
-                      surfaces ? "surface" : "volume", content.wanted_group,
-                      names.empty() ? "none" : names));
+                      kinds[dimension], content.wanted_group, names.empty() ? "none" : names));
 }
 
 // The points that cells use, in the order in which these name them, and the cells over them.
@@ -353,6 +354,15 @@ SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes
   content.wanted_group = group;
   SurfaceMesh mesh;
   if (read_content(file, content, mistakes)) number_points(content, mesh.points, mesh.quads);
+  return mesh;
+}
+
+LineMesh read_msh_lines(const std::string& file, const std::string& group, Mistakes& mistakes) {
+  MshContent content;
+  content.dimension = 1;
+  content.wanted_group = group;
+  LineMesh mesh;
+  if (read_content(file, content, mistakes)) number_points(content, mesh.points, mesh.cells);
   return mesh;
 }
 

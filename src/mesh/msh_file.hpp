@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/keys.hpp"
+#include "mesh/line_shapes.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "mesh/volume_shapes.hpp"
 
@@ -19,5 +20,9 @@ SurfaceMesh read_msh(const std::string& file, const std::string& group, Mistakes
 /// The tetrahedra or the hexahedra of a gmsh file, as read_msh(); group: of a physical volume. Both
 /// in one group are a mistake.
 VolumeMesh read_msh_volume(const std::string& file, const std::string& group, Mistakes& mistakes);
+
+/// The lines of a gmsh file, as read_msh(); group: of a physical curve. They may meet and branch as
+/// they like.
+LineMesh read_msh_lines(const std::string& file, const std::string& group, Mistakes& mistakes);
 
 }  // namespace gannet

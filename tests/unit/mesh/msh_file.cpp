@@ -109,6 +109,24 @@ TEST_CASE("msh: hexahedra and tetrahedra of a physical volume", "[mesh]") {
         std::string::npos);
 }
 
+TEST_CASE("msh: lines that meet, of a physical curve", "[mesh]") {
+  for (const std::string file : {"frame_41.msh", "frame_22.msh"}) {
+    Mistakes mistakes;
+    const LineMesh legs = read_msh_lines(data + file, "legs", mistakes);
+    CHECK(messages(mistakes).empty());
+    CHECK(legs.cells == std::vector<Index>{0, 1, 2, 1});
+    CHECK(legs.points == std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
+    const LineMesh all = read_msh_lines(data + file, "", mistakes);
+    CHECK(all.cells == std::vector<Index>{0, 1, 2, 1, 0, 2});
+    CHECK(read_msh_lines(data + file, "feet", mistakes).empty());
+    CHECK(messages(mistakes).find("no curve cell belongs to the group 'feet'; physical curves of "
+                                  "this file: braces, legs") != std::string::npos);
+  }
+  Mistakes mistakes;
+  CHECK(read_msh_lines(data + "block_22.msh", "", mistakes).empty());
+  CHECK(messages(mistakes).find("the file holds no lines") != std::string::npos);
+}
+
 TEST_CASE("msh 4.1: each way to be broken has its line and reason", "[mesh][errors]") {
   const std::string file = "panel_41.msh";
   const auto said = [&](const char* old_text, const char* new_text, const char* group = "") {
