@@ -155,7 +155,9 @@ void add_element_operation(const Keys& root, Scene& scene, Models& models, Eleme
   const std::string name = scene.parts[static_cast<std::size_t>(number)].name;
   const Entries entries = entries_of(models.ledger, element, name);
   Operation operation{.name = element.kind + " " + name,
-                      .reason = asked_for_at(root.map("parts").map(name).where(element.kind)),
+                      .reason = element.reason.empty()
+                                    ? asked_for_at(root.map("parts").map(name).where(element.kind))
+                                    : element.reason,
                       .stage = Stage::force,
                       .reads = std::move(element.reads),
                       .writes = std::move(element.writes),

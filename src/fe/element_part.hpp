@@ -33,8 +33,9 @@ struct ElementStep {
 
 /// One part as the plan sees it. Whatever the functions refer to must outlive the plan.
 struct ElementPart {
-  std::string kind;  ///< "shell"; the operation is "<kind> <name of the part>"
-  int part = -1;     ///< number in the scene
+  std::string kind;    ///< "shell"; the operation is "<kind> <name of the part>"
+  int part = -1;       ///< number in the scene
+  std::string reason;  ///< of the operation; empty: parts.NAME.<kind> asks for it
   std::vector<std::string> reads{"x", "v"};
   std::vector<std::string> writes{"f"};
   bool plastic = false;    ///< has an entry for plastic work
