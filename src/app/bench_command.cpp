@@ -10,6 +10,7 @@
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
 #include "fe/beam.hpp"
+#include "fe/mooring.hpp"
 #include "fe/shell.hpp"
 #include "fe/solid.hpp"
 #include "fe/truss.hpp"
@@ -219,6 +220,43 @@ BenchResult bench_beam(int n, const char* material) {
   return r;
 }
 
+/// A mooring line of n elements that lies on the bed for a third, moving in water: the passes over
+/// its elements and nodes, or whole steps of a run.
+BenchResult bench_mooring(int n, bool whole_step) {
+  const auto simulation = make_simulation_of_text(
+      fmt::format("gannet: 1\n"
+                  "moorings: {{line: {{from: [900 m, 0, 310 m], to: [0, 0, 0], length: 1000 m, EA: "
+                  "1336 MN, mass_per_length: 49.6, diameter: 90 mm, elements: {}, water: {{level: "
+                  "310 m}}, bed: {{}}, motion: [\"sin(t)\", 0, 0]}}}}\n"
+                  "loads: {{gravity: [0, 0, -9.81 m/s^2]}}\n"
+                  "output: {{until: 1 s}}\n",
+                  n));
+  Scene& scene = simulation->scene;
+  for (int k = 0; k < 100; ++k) advance(simulation->models);
+  MooringLine& line = scene.store.get<MooringLines>().list.front();
+  const Step step = simulation->models.list.front().step;
+  constexpr int times = 1000;
+  const double seconds = median_seconds(9, [&] {
+    for (int k = 0; k < times; ++k) {
+      if (whole_step) {
+        advance(simulation->models);
+        continue;
+      }
+      truss_pass(line.block, scene.nodes, step.dt_old);
+      line_forces(line, scene.nodes, scene.gravity, step);
+      line_work(line, scene.nodes, scene.gravity, step);
+      for (Line& f : scene.nodes.f) f = {};
+    }
+  });
+  BenchResult r;
+  r.size = line.n_nodes();
+  r.median_seconds = seconds / times;
+  r.rate = r.size / r.median_seconds;
+  r.unit = "node-steps/s";
+  r.bytes_per_item = 8.0 * static_cast<double>(line.state.size() + line.block.state.size()) / n;
+  return r;
+}
+
 std::vector<Benchmark> all_benchmarks() {
   return {
       {"fe.shell.pass.50k", [] { return bench_shell(224); }},
@@ -241,6 +279,9 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.beam.may_yield.1k", [] { return bench_beam(1000, "metal"); }},
       {"fe.beam.flowing.1k", [] { return bench_beam(1000, "flowing"); }},
       {"fe.shell.damped.50k", [] { return bench_shell(224, ", damping_ratio: 0.05"); }},
+      {"fe.mooring.pass.1k", [] { return bench_mooring(1000, false); }},
+      {"fe.mooring.step.1k", [] { return bench_mooring(1000, true); }},
+      {"fe.mooring.step.80", [] { return bench_mooring(80, true); }},
       {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
       {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
       {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},

@@ -59,6 +59,7 @@ std::vector<Effect> make_table() {
       shell_effect(),              //
       solid_effect(),              //
       cable_effect(),              //
+      moorings_effect(),           //
       beam_effect(),               //
       rigid_bodies_effect(),       // takes the masses of the elements, and gathers their forces
       mass_scaling_effect(),       // what those elements have made of it

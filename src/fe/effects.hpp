@@ -18,6 +18,10 @@ Effect solid_effect();
 /// under axial force over the line that the part's `shape` gives.
 Effect cable_effect();
 
+/// moorings.NAME: {from, to, length, EA, water, bed, ...}: lines of cable elements that start at
+/// rest as elastic catenaries, in water and on a sea bed.
+Effect moorings_effect();
+
 /// parts.NAME.beam: {material, section, up, ...}: parts made of two-node beams over the line that
 /// the part's `shape` gives.
 Effect beam_effect();

@@ -21,7 +21,7 @@ double length_of(const TrussBlock& block, const Nodes& nodes, Index e) {
 
 /// Sets one element up; lanes without an element have no stiffness.
 void set_element(TrussBlock& block, Index e, double length) {
-  const double l0 = length / (1 + block.prestrain);
+  const double l0 = block.unstretched > 0 ? block.unstretched : length / (1 + block.prestrain);
   const auto put = [&](TrussValue k, double value) {
     block.state[place_in_blocks(e, k, truss_values)] = value;
   };

@@ -27,6 +27,7 @@ struct TrussBlock {
   bool tension_only = false;  ///< shortened elements carry nothing (a cable)
   double dt_factor = 0.9;     ///< share of the stable step that is voted for
   double prestrain = 0;       ///< l/l0 - 1 in the positions at the start, > -1
+  double unstretched = 0;     ///< l0 of every element [m]; 0: of its length and the prestrain
   double damping_ratio = 0;   ///< zeta of each element's highest mode, >= 0
   double damping_time = 0;    ///< beta, added to it [s], >= 0
   double strength = 0;        ///< force at which an element breaks [N]; 0: never
@@ -58,8 +59,9 @@ struct TrussBlocks {
 /// Elements per chunk of the coloured passes.
 inline constexpr Index truss_chunk = 512;
 
-/// Takes the lengths between the nodes as they stand for (1 + prestrain) l0 and sets the arrays up.
-/// Throws std::invalid_argument that names the element where two nodes coincide.
+/// Takes the lengths between the nodes as they stand for (1 + prestrain) l0, or l0 as said, and
+/// sets the arrays up. Throws std::invalid_argument that names the element where two nodes
+/// coincide.
 void rest_at_present_length(TrussBlock& block, const Nodes& nodes);
 
 /// (2/dt)^2 of the steps dt that the elements allow at rest in the positions at hand [1/s^2], eight

@@ -224,12 +224,27 @@ Value check_let(const TextNode& let, CheckContext& context) {
   return value;
 }
 
-void check_references(const TextNode& root, const CheckContext& context) {
-  for (const ReferenceToCheck& r : context.references) {
-    std::vector<std::string> names;
-    if (const TextNode* map = find(root, r.refers_to)) {
+namespace {
+
+/// Names under the top-level maps that a reference may mean: "parts", "parts or moorings".
+std::vector<std::string> names_under(const TextNode& root, const std::string& maps) {
+  constexpr std::string_view between = " or ";
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin < maps.size();) {
+    const std::size_t end = std::min(maps.find(between, begin), maps.size());
+    if (const TextNode* map = find(root, maps.substr(begin, end - begin))) {
       for (const TextNode& entry : map->items) names.push_back(entry.key);
     }
+    begin = end + between.size();
+  }
+  return names;
+}
+
+}  // namespace
+
+void check_references(const TextNode& root, const CheckContext& context) {
+  for (const ReferenceToCheck& r : context.references) {
+    const std::vector<std::string> names = names_under(root, r.refers_to);
     if (std::find(names.begin(), names.end(), r.name) != names.end()) continue;
     context.complain(r.where, r.path,
                      fmt::format("no '{}' under '{}'{} (there: {})", r.name, r.refers_to,

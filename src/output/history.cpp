@@ -100,7 +100,8 @@ std::string history_name(const Measure& measure) {
   constexpr std::string_view probe = "probe.";
   if (measure.name.starts_with(probe)) return file_name_of(measure.name.substr(probe.size()));
   const bool shown = measure.name.starts_with("contact.") || measure.name.starts_with("wall.") ||
-                     measure.name.starts_with("cable.") || measure.name.starts_with("tie.");
+                     measure.name.starts_with("cable.") || measure.name.starts_with("tie.") ||
+                     measure.name.starts_with("mooring.");
   if (!shown) return "";
   std::string name = measure.name;
   for (char& c : name) {

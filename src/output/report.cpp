@@ -60,6 +60,22 @@ RestSaving rest_saving(const Scene& scene, const Models& models) {
   return saving;
 }
 
+namespace {
+
+/// "mooring.line_1.extremes: from largest 3.7e+05 N, ..."
+std::string text_of(const Measure& measure) {
+  std::vector<double> values(measure.components.size());
+  measure.sample(values.data());
+  std::string text = measure.name + ":";
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    text += fmt::format("{} {} {:.6g} {}", c > 0 ? "," : "", measure.components[c], values[c],
+                        measure.unit);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string report(Scene& scene, const Models& models, const RunRecord& record) {
   const double wall = wall_time(record);
   const StepsDone done = steps_done(scene, models, record);
@@ -91,6 +107,9 @@ std::string report(Scene& scene, const Models& models, const RunRecord& record) 
                    "that saved about {}\n",
                    100 * saving.share, count_text(scene.resting.particle_steps),
                    duration_text(saving.seconds));
+  }
+  for (const Measure& m : scene.measures) {
+    if (m.at_end) text += text_of(m) + "\n";
   }
   fmt::format_to(out, "{:<11} {:<{}} {:>10} {:>10} {:>7}\n", "stage", "operation", width, "calls",
                  "seconds", "share");

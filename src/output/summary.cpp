@@ -79,6 +79,20 @@ void add_rest(const Scene& scene, const Models& models, Json& json) {
       {"momentum_taken", {resting.momentum.x(), resting.momentum.y(), resting.momentum.z()}}};
 }
 
+/// What measures are told at the end, by name and component; nothing where there are none.
+void add_measures_at_end(const Scene& scene, Json& json) {
+  for (const Measure& m : scene.measures) {
+    if (!m.at_end) continue;
+    std::vector<double> values(m.components.size());
+    m.sample(values.data());
+    Json& entry = json["measures"][m.name];
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      entry[m.components[c]] = number_json(values[c]);
+    }
+    entry["unit"] = m.unit;
+  }
+}
+
 }  // namespace
 
 std::string summary_text(Scene& scene, const Models& models, const RunRecord& record) {
@@ -105,6 +119,7 @@ std::string summary_text(Scene& scene, const Models& models, const RunRecord& re
                {"element_steps_per_second", wall > 0 ? done.element_steps / wall : 0}};
   add_strays(scene, record, json);
   add_rest(scene, models, json);
+  add_measures_at_end(scene, json);
   json["operations"] = operations_json(models, wall);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -155,7 +155,8 @@ Key node_set_key(const std::string& name, bool required) {
         .name = key, .kind = Kind::vector, .unit = dim::length, .text = text, .required = needed};
   };
   const auto part = [](const char* key, const char* text) {
-    return Key{.name = key, .kind = Kind::reference, .text = text, .refers_to = "parts"};
+    return Key{
+        .name = key, .kind = Kind::reference, .text = text, .refers_to = "parts or moorings"};
   };
   Key box{.name = "box", .kind = Kind::map, .text = "nodes in a box, its faces included"};
   box.keys = {point("from", "one corner", true), point("to", "the corner opposite", true)};

@@ -91,6 +91,7 @@ struct Measure {
   std::string unit;
   std::vector<std::string> components;  ///< {"x", "y", "z"}, {"value"}
   std::function<void(double*)> sample;  ///< writes one double a component
+  bool at_end = false;                  ///< told in the report and the summary of a run
 };
 
 /// Particles that are not computed for a while, because nothing happens where they are

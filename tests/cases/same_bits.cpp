@@ -152,6 +152,10 @@ Sample lines_sample() {
   return {[] { return std::make_unique<WatchedRun>(rope_and_beam); }, 150, false};
 }
 
+Sample moorings_sample() {
+  return {[] { return std::make_unique<WatchedRun>(moorings); }, 150, false};
+}
+
 /// Runs a sample from its start; returns it at its end.
 std::unique_ptr<WatchedRun> run(const Sample& sample, int n_threads) {
   set_threads(n_threads);
@@ -434,6 +438,11 @@ TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and 
     if (m.name == "cable.rope.broken") m.sample(&n_broken);
   }
   CHECK(n_broken > 0);
+}
+
+TEST_CASE("same bits: mooring lines, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(moorings_sample());
+  check_restart(moorings_sample());
 }
 
 TEST_CASE("same bits: water that rests and wakes, 1, 2, 3 and 5 threads", "[bits]") {

@@ -255,6 +255,27 @@ output: {until: 10 s, checkpoint: never}
 )case";
 }
 
+/// Two mooring lines, of 1,300 elements that slide on the bed in a current, and of a few that
+/// break.
+inline const std::string moorings = R"case(gannet: 1
+moorings:
+  long:
+    from: [900 m, 0, 310 m]
+    to: [0, 0, 0]
+    length: 1000 m
+    EA: 1336 MN
+    mass_per_length: 49.6
+    diameter: 90 mm
+    elements: 1300
+    water: {level: 309 m, current: ["0.1*t", "0.01*z", 0], Cdt: 0.05, Cat: 0.1}
+    bed: {friction: 0.4}
+    motion: ["20*t", "5*t", "3*sin(50*t)"]
+  short: {from: [60 m, 9 m, 40 m], to: [0, 9 m, 0], length: 72.1 m, EA: 100 MN, mass_per_length: 20, elements: 20, motion: ["40*t", 0, 0], strength: 1.5 MN}
+loads: {gravity: [0, 0, -9.81 m/s^2]}
+effects: {guards: off}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 /// A vault of quadrilaterals and triangles that yields and settles under dynamic relaxation.
 inline std::string mixed_shells(const std::string& mesh_file) {
   return R"case(gannet: 1
