@@ -130,7 +130,8 @@ GANNET_INLINE void water_forces(const LinePass& pass, const Numbers& n, std::int
   if constexpr (flows) v = v - current_of(pass, block);
   const Vec8 vt = dot(v, t);
   const Vec8x3 vn = v - scaled(t, vt);
-  const Vec8 Cn = Vec8(pass.drag_across) * wet * sqrt(dot(vn, vn));
+  const Vec8 vn2 = dot(vn, vn);
+  const Vec8 Cn = Vec8(pass.drag_across) * wet * vn2 * rsqrt(vn2 + Vec8(tiny));
   const Vec8 Ct = Vec8(pass.drag_along) * wet * max(vt, -vt);
   // (m + M_a + C tau) a = f - C v, across and along the line; tau: from v(n-1/2) to the mean of
   // the velocities before and after the kick. The ends take no part in it: their motion is given.
@@ -139,8 +140,9 @@ GANNET_INLINE void water_forces(const LinePass& pass, const Numbers& n, std::int
   const Vec8 Mt = Vec8(pass.added_along) * wet * a.inner;
   const Vec8 ft = dot(f, t);
   const Vec8x3 fn = f - scaled(t, ft);
-  const Vec8 sn = reciprocal(a.m + Mn + Cn * tau);
-  const Vec8 at = fnma(Ct, vt, ft) * reciprocal(a.m + Mt + Ct * tau);
+  const Vec8 m = a.m + n.get(line_end);  // above 0 also where another has taken an end's mass
+  const Vec8 sn = reciprocal(m + Mn + Cn * tau);
+  const Vec8 at = fnma(Ct, vt, ft) * reciprocal(m + Mt + Ct * tau);
   const Vec8x3 an = scaled(fn - scaled(vn, Cn), sn);
   const Vec8x3 drag = -(scaled(vn + scaled(an, tau), Cn) + scaled(t, Ct * fma(at, tau, vt)));
   const Vec8x3 added = -(scaled(an, Mn) + scaled(t, Mt * at));
