@@ -52,6 +52,7 @@ struct LineEnd {
 struct MooringLine {
   std::string name;
   Location where;
+  std::string material;  ///< of its cable elements, where one is named
   TrussBlock block;
   double length = 0;    ///< unstretched [m]
   double diameter = 0;  ///< of a cylinder that displaces as much water [m]

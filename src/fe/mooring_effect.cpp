@@ -15,39 +15,41 @@ namespace gannet {
 
 namespace {
 
-std::vector<Keys> moorings_of(const Keys& root) {
-  std::vector<Keys> list;
-  if (!root.has("moorings")) return list;
-  for (const std::string& name : root.map("moorings").names()) {
-    list.push_back(root.map("moorings").map(name));
+/// Notes a mistake of a line at the length that the case gives it, or where its file is named.
+void complain(const Keys& root, const MooringLine& line, const std::string& text) {
+  const Keys moorings = root.map("moorings");
+  if (moorings.has(line.name)) {
+    moorings.map(line.name).complain("length", text);
+  } else {
+    moorings.complain("file", line.name + ": " + text);
   }
-  return list;
+}
+
+PartDraft draft_of(const MooringLine& line, std::vector<Vec3> points) {
+  PartDraft part;
+  part.name = line.name;
+  part.kind = "cable";
+  part.material = line.material;
+  part.where = line.where;
+  part.cell = Cell::line;
+  part.points = std::move(points);
+  for (Index k = 0; k < line.n; ++k) {
+    part.connectivity.insert(part.connectivity.end(), {k, k + 1});
+  }
+  return part;
 }
 
 void add_parts(const Keys& root, Draft& draft) {
-  for (const Keys& keys : moorings_of(root)) {
-    if (root.has("parts") && root.map("parts").has(keys.name())) {
-      keys.complain("", "is the name of a part too");
-      continue;
-    }
-    MooringLine line;
-    if (!read_mooring(root, keys, line)) continue;
+  for (const MooringLine& line : read_moorings(root)) {
     LineStart start = start_of(line, gravity_of(root));
-    if (!start.trouble.empty()) {
-      keys.complain("length", start.trouble);
-      continue;
+    if (root.has("parts") && root.map("parts").has(line.name)) {
+      start.trouble = "'" + line.name + "' is the name of a part too";
     }
-    PartDraft part;
-    part.name = line.name;
-    part.kind = "cable";
-    part.material = keys.word("material");
-    part.where = line.where;
-    part.cell = Cell::line;
-    part.points = std::move(start.x);
-    for (Index k = 0; k < line.n; ++k) {
-      part.connectivity.insert(part.connectivity.end(), {k, k + 1});
+    if (start.trouble.empty()) {
+      draft.parts.push_back(draft_of(line, std::move(start.x)));
+    } else {
+      complain(root, line, start.trouble);
     }
-    draft.parts.push_back(std::move(part));
   }
 }
 
@@ -114,11 +116,9 @@ void add_measures(Scene& scene, const MooringLine& line) {
        .at_end = true});
 }
 
-void make_state(const Keys& root, const Keys& keys, Scene& scene) {
-  const int number = scene.part_number(keys.name());
+void make_state(const Keys& root, MooringLine made, Scene& scene) {
+  const int number = scene.part_number(made.name);
   if (number < 0) return;
-  MooringLine made;
-  if (!read_mooring(root, keys, made)) return;
   MooringLine& line = scene.store.get<MooringLines>().list.emplace_back(std::move(made));
   const Part& part = scene.parts[static_cast<std::size_t>(number)];
   line.block.name = part.name;
@@ -133,7 +133,7 @@ void make_state(const Keys& root, const Keys& keys, Scene& scene) {
 }
 
 void state(const Keys& root, Scene& scene) {
-  for (const Keys& keys : moorings_of(root)) make_state(root, keys, scene);
+  for (MooringLine& line : read_moorings(root)) make_state(root, std::move(line), scene);
 }
 
 /// The entries of the ledger that a line has; nullptr where it has none.
@@ -230,8 +230,8 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   std::vector<Choice> list;
   if (!scene.store.has<MooringLines>()) return list;
   for (const MooringLine& line : scene.store.get<MooringLines>().list) {
+    if (!line.bed.there || !root.map("moorings").has(line.name)) continue;
     const Keys bed = root.map("moorings").map(line.name).map("bed");
-    if (!line.bed.there) continue;
     if (!bed.given("stiffness")) {
       list.push_back({bed.path() + ".stiffness", fmt::format("{:.4g} Pa/m", line.bed.stiffness),
                       "a line at rest sinks in by a tenth of its diameter"});

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sstream>
+#include <utility>
 
 #include "fe/cable_part.hpp"
+#include "fe/moordyn_file.hpp"
 #include "material/elastic_plastic.hpp"
 
 namespace gannet {
@@ -114,11 +118,64 @@ void read_bed(const Keys& keys, MooringLine& line, double g) {
   }
 }
 
+bool can_be_moored(const Keys& root) {
+  const Vec3 g = gravity_of(root);
+  if (root.integer("dimension") == 3 && g.x() == 0 && g.y() == 0 && g.z() <= 0) return true;
+  root.map("moorings").complain("", "mooring lines want three dimensions and gravity along -z");
+  return false;
+}
+
+bool read_mooring(const Keys& root, const Keys& keys, MooringLine& line) {
+  line.name = keys.name();
+  line.where = keys.where();
+  line.length = keys.number("length");
+  line.n = keys.integer("elements");
+  line.block.unstretched = line.length / line.n;
+  line.material = keys.word("material");
+  if (!read_cable(root, keys, line.block)) return false;
+  if (!read_ends(keys, line) || !read_water(keys, line)) return false;
+  read_bed(keys, line, -gravity_of(root).z());
+  return true;
+}
+
+/// The lines of a line file of MoorDyn.
+void add_lines_of_file(const Keys& root, const Keys& moorings, std::vector<MooringLine>& lines) {
+  const std::string path = moorings.word("file");
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  MoorDynFile file = read_moordyn(text.str(), path, moorings.word("coupled") != "free");
+  for (const std::string& mistake : file.mistakes) moorings.complain("file", mistake);
+  const double g = -gravity_of(root).z();
+  if (file.mistakes.empty() && std::abs(g - file.g) > 1e-3 * file.g) {
+    moorings.complain(
+        "file", fmt::format("says g = {:.6g} m/s^2; loads.gravity says {:.6g} m/s^2", file.g, g));
+  }
+  for (MooringLine& line : file.lines) {
+    line.where = moorings.where("file");
+    if (moorings.has(line.name)) {
+      moorings.complain("file", "has a line '" + line.name + "' too");
+      continue;
+    }
+    lines.push_back(std::move(line));
+  }
+}
+
 }  // namespace
 
 Schema mooring_schema() {
   Schema s = elastic_plastic_schema();
   const auto key = [&](Key k) { s.push_back({"moorings.*", std::move(k)}); };
+  s.push_back({"moorings",
+               {.name = "file",
+                .kind = Kind::path,
+                .text = "line file of MoorDyn, whose lines are taken as line_ID"}});
+  s.push_back({"moorings",
+               {.name = "coupled",
+                .kind = Kind::choice,
+                .text = "ends of its lines at coupled points: held, or left to ties, boundaries",
+                .fallback = "held",
+                .choices = {"held", "free"}}});
   key(end_key("from", "upper end, at what is moored"));
   key(end_key("to", "the anchor"));
   key({.name = "length",
@@ -157,21 +214,17 @@ Vec3 gravity_of(const Keys& root) {
   return value_at(root.map("loads").vector_function("gravity"), 0);
 }
 
-bool read_mooring(const Keys& root, const Keys& keys, MooringLine& line) {
-  line.name = keys.name();
-  line.where = keys.where();
-  line.length = keys.number("length");
-  line.n = keys.integer("elements");
-  line.block.unstretched = line.length / line.n;
-  const Vec3 g = gravity_of(root);
-  if (root.integer("dimension") != 3 || g.x() != 0 || g.y() != 0 || g.z() > 0) {
-    keys.complain("", "a mooring line wants three dimensions and gravity along -z");
-    return false;
+std::vector<MooringLine> read_moorings(const Keys& root) {
+  std::vector<MooringLine> lines;
+  if (!root.given("moorings") || !can_be_moored(root)) return lines;
+  const Keys moorings = root.map("moorings");
+  for (const std::string& name : moorings.names()) {
+    if (name == "file" || name == "coupled") continue;
+    MooringLine line;
+    if (read_mooring(root, moorings.map(name), line)) lines.push_back(std::move(line));
   }
-  if (!read_cable(root, keys, line.block)) return false;
-  if (!read_ends(keys, line) || !read_water(keys, line)) return false;
-  read_bed(keys, line, -g.z());
-  return true;
+  if (moorings.has("file")) add_lines_of_file(root, moorings, lines);
+  return lines;
 }
 
 void choose_bed(MooringLine& line, double g) {

@@ -1,6 +1,8 @@
 // What a case says of its mooring lines.
 #pragma once
 
+#include <vector>
+
 #include "base/keys.hpp"
 #include "base/schema.hpp"
 #include "fe/mooring.hpp"
@@ -13,9 +15,10 @@ Schema mooring_schema();
 /// Gravity at the start [m/s^2].
 Vec3 gravity_of(const Keys& root);
 
-/// One line of the case: ends, elements, water and bed, with what is chosen where nothing is said
-/// (bed_choice()). Complains and returns false where it cannot be.
-bool read_mooring(const Keys& root, const Keys& keys, MooringLine& line);
+/// The lines of the case, those with names and those of a line file of MoorDyn: ends, elements,
+/// water and bed, with what is chosen where nothing is said (choose_bed()). Complains of those that
+/// cannot be, and leaves them out.
+std::vector<MooringLine> read_moorings(const Keys& root);
 
 /// Stiffness and damping of a bed where the case does not say them: a line that lies on it sinks in
 /// by a tenth of its diameter, and its bounce is damped critically. g: gravity, downwards [m/s^2].
