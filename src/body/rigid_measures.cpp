@@ -25,8 +25,9 @@ struct BodyVector {
 
 /// What impulses of a slower model add to the force that the body was kicked with.
 Excess excess_of(const Scene& scene, const RigidBody& body) {
-  return excess_of_impulses(scene, xyz(scene.nodes.x[static_cast<std::size_t>(body.node)]),
-                            [&](Index i) { return std::ranges::binary_search(body.members, i); });
+  return excess_of_impulses(
+      scene, xyz(scene.nodes.x[static_cast<std::size_t>(body.node)]),
+      [&](Index i) { return i == body.node || std::ranges::binary_search(body.members, i); });
 }
 
 std::vector<BodyVector> vectors_of(const Scene& scene, const Model& model, const RigidBody& body) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/parallel.hpp"
+#include "contact/linked_weight.hpp"
 #include "plan/effect.hpp"
 
 namespace gannet {
@@ -258,7 +259,10 @@ void add_node_to_segment(Scene& scene, NodeToSegment& c, Models& models) {
     c.link.slow = &model;
     c.link.fast = &of_surface;
     c.link.nodes.assign(c.surface.node.begin(), c.surface.node.end());
+    const std::vector<Index> bodies = bodies_of(scene, c.link, *c.followers);
+    c.link.nodes.insert(c.link.nodes.end(), bodies.begin(), bodies.end());
     open_link(scene, c.link);
+    move_weights(scene, c.link, bodies);
   }
   Operation op;
   op.name = "contact " + c.name;

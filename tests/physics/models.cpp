@@ -122,3 +122,24 @@ TEST_CASE("models: a moored box moves as in one model", "[physics]") {
   CHECK(worst < 0.03 * range);
   CHECK(energy_error(*two) < 2e-3);
 }
+
+TEST_CASE("models: the weight of a body acts with the water that carries it", "[physics]") {
+  const auto s = make_simulation_of_text(moored(true));
+  run_to(*s, 0.1);
+  Model& fast = s->models.list.back();
+  const Scene& scene = s->scene;
+  const int number = scene.part_number("body.box");
+  const auto body =
+      static_cast<std::size_t>(scene.parts[static_cast<std::size_t>(number)].nodes.begin);
+  double last = scene.nodes.v[body].y;
+  double jump = 0;
+  fast.plan.add({.name = "watch", .stage = Stage::look, .run = [&](const Step&) {
+                   jump = std::max(jump, std::abs(scene.nodes.v[body].y - last));
+                   last = scene.nodes.v[body].y;
+                 }});
+  run_to(*s, 0.2);
+  const double dT = s->models.list.front().step.dt_old;
+  fmt::print("largest change of a floating body's velocity in a substep: {:.2g} of g dT\n",
+             jump / (9.81 * dT));
+  CHECK(jump < 0.6 * 9.81 * dT);  // more than all of it where the weight acts in the substeps
+}
