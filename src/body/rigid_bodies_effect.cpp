@@ -213,6 +213,9 @@ void make_body(const Keys& keys, Scene& scene, NamedBody& body) {
   const std::optional<WeighedBody> weighed = weigh_body(keys, scene, body.parts, members, tied);
   if (!weighed) return;
   body.mass = *weighed;
+  for (const Index i : tied) {
+    scene.group(body.name)->masses.push_back(scene.nodes.x[static_cast<std::size_t>(i)].w);
+  }
   members.insert(members.end(), tied.begin(), tied.end());
   std::ranges::sort(members);
   Vec3 v = keys.has("velocity") ? keys.vector("velocity") : Vec3(Vec3::Zero());

@@ -21,7 +21,9 @@ namespace {
 struct Tie {
   std::string name;
   Location where;
+  std::string to;
   std::vector<Index> nodes;
+  double mass = 0;            ///< of the nodes, which the body has [kg]
   Vec3 force = Vec3::Zero();  ///< on the body at this level [N]
 };
 
@@ -86,6 +88,7 @@ void make_tie(const Keys& keys, Scene& scene) {
   Tie& tie = scene.store.get<Ties>().list.emplace_back();
   tie.name = keys.name();
   tie.where = keys.where();
+  tie.to = group->name;
   tie.nodes = nodes;
   scene.measures.push_back(
       {"tie." + tie.name + ".force", "N", {"x", "y", "z"}, [&tie](double* out) {
@@ -99,17 +102,27 @@ void state(const Keys& root, Scene& scene) {
   for (const std::string& name : ties.names()) make_tie(ties.map(name), scene);
 }
 
+/// Of the nodes, as the body noted it.
+double mass_of(const Tie& tie, const PartGroup& group) {
+  double mass = 0;
+  for (std::size_t k = 0; k < group.masses.size(); ++k) {
+    if (std::ranges::find(tie.nodes, group.nodes[k]) != tie.nodes.end()) mass += group.masses[k];
+  }
+  return mass;
+}
+
 /// Stands after all that pushes the nodes in their own model.
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!root.has("ties")) return;
   for (Tie& tie : scene.store.get<Ties>().list) {
+    tie.mass = mass_of(tie, *scene.group(tie.to));
     models.of_node(tie.nodes.front())
         .plan.add({.name = "force of tie " + tie.name,
                    .reason = asked_for_at(tie.where),
                    .stage = Stage::force,
                    .reads = {"f"},
                    .run = [&scene, &tie](const Step&) {
-                     tie.force.setZero();
+                     tie.force = tie.mass * scene.gravity;
                      for (const Index i : tie.nodes) {
                        tie.force += xyz(scene.nodes.f[static_cast<std::size_t>(i)]);
                      }

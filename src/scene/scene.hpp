@@ -75,8 +75,9 @@ struct Plane {
 /// Parts that move as one, and so advance in one model; a case may name them by one name.
 struct PartGroup {
   std::string name;
-  std::vector<int> parts;    ///< numbers in scene.parts
-  std::vector<Index> nodes;  ///< of other parts, which move along
+  std::vector<int> parts;        ///< numbers in scene.parts
+  std::vector<Index> nodes;      ///< of other parts, which move along
+  std::vector<double> masses{};  ///< theirs, noted by what took them over [kg]
 };
 
 /// A list of particle indices that someone keeps; permuted whenever particles are sorted.

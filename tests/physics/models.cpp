@@ -143,3 +143,34 @@ TEST_CASE("models: the weight of a body acts with the water that carries it", "[
              jump / (9.81 * dT));
   CHECK(jump < 0.6 * 9.81 * dT);  // more than all of it where the weight acts in the substeps
 }
+
+TEST_CASE("models: a mooring line that is tied to a body pulls with its catenary", "[physics]") {
+  const auto s = make_simulation_of_text(R"case(gannet: 1
+parts:
+  hull: {rigid_surface: {}, shape: {plate: {size: [10, 10], elements: [2, 2], centre: [0, 0, 0]}}}
+bodies:
+  float: {parts: hull, mass: 1000 t, centre: [0, 0, 0], inertia: [1e7, 1e7, 1e7, 0, 0, 0],
+          motion: {velocity: [0, 0, 0], angular_velocity: [0, 0, 0]}}
+moorings:
+  line:
+    from: [0, 0, 0]
+    to: [900 m, 0, -310 m]
+    length: 1000 m
+    elements: 80
+    EA: 1.335962 GN
+    mass_per_length: 49.6215 kg/m
+    diameter: 90 mm
+    free: [from]
+    water: {density: 1025 kg/m^3}
+    bed: {}
+ties: {fairlead: {nodes: {nearest: [0, 0, 0], of: line}, to: float}}
+loads: {gravity: [0, 0, -9.80665 m/s^2]}
+output: {until: 100 s, checkpoint: never}
+)case");
+  run_to(*s, 2);
+  const auto force = [&](int d) { return measured(s->scene, "tie.fairlead.force", d); };
+  const double tension = std::hypot(force(0), force(2));
+  // The closed form of the elastic catenary on its bed: 371,256 N.
+  fmt::print("tension at the tie {:.6g} N\n", tension);
+  CHECK(tension == Approx(371256).epsilon(2e-3));
+}
