@@ -25,7 +25,15 @@ T at_foot(const Surface& surface, const Gap& gap, F&& of_node) {
 }
 
 std::size_t node_of_row(const ContactInput& in, std::size_t row) {
-  return static_cast<std::size_t>(in.points.begin + in.candidates->point[row]);
+  const Index point = in.candidates->point[row];
+  return static_cast<std::size_t>(in.point_node.empty()
+                                      ? in.points.begin + point
+                                      : in.point_node[static_cast<std::size_t>(point)]);
+}
+
+double stiffness_of_row(const ContactInput& in, const ContactLaw& law, std::size_t row) {
+  return in.stiffness.empty() ? law.stiffness(in.nodes->x[node_of_row(in, row)].w)
+                              : in.stiffness[row];
 }
 
 Vec3 relative_velocity(const ContactInput& in, std::size_t row) {
@@ -75,7 +83,7 @@ void contact_forces(const ContactInput& in, const ContactLaw& law, std::span<Lin
       const Gap& gap = in.gaps[r];
       const bool active = gap.segment >= 0 && gap.penetration > 0;
       const double m = in.nodes->x[node_of_row(in, r)].w;
-      const double k = law.stiffness(m);
+      const double k = stiffness_of_row(in, law, r);
       forces.normal[r] = active ? penalty_force(k, gap) : Vec3(Vec3::Zero());
       Vec3 total = forces.normal[r];
       if (law.damping > 0) {
@@ -111,7 +119,7 @@ Scattered scatter_forces(const ContactInput& in, const ContactLaw& law, const Co
     const Gap& gap = in.gaps[r];
     if (gap.segment < 0) continue;
     const std::size_t p = node_of_row(in, r);
-    const double k = law.stiffness(nodes.x[p].w);
+    const double k = stiffness_of_row(in, law, r);
     const Segment& g = in.surface->segments[static_cast<std::size_t>(gap.segment)];
     const auto n_corners = static_cast<std::size_t>(g.n_corners);
     for (std::size_t c = 0; c < n_corners; ++c) {
@@ -141,7 +149,7 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
   for (std::size_t r = 0; r < n_rows; ++r) {
     if (in.gaps[r].segment < 0) continue;
     const std::size_t p = node_of_row(in, r);
-    consider(law.stiffness(in.nodes->x[p].w), p);
+    consider(stiffness_of_row(in, law, r), p);
   }
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     consider(stiffness[i], static_cast<std::size_t>(in.surface->node[i]));

@@ -63,6 +63,8 @@ struct ContactInput {
   std::span<const Gap> gaps;
   double dt_old = 0;                     ///< step before this level [s]
   const Followers* followers = nullptr;  ///< surface nodes that are part of something heavier
+  std::span<const Index> point_node{};   ///< node of each point, where they are not a range
+  std::span<const double> stiffness{};   ///< of each row [N/m], where it does not follow the law
 };
 
 /// Forces of all rows. t: tangential spring forces of the particles, updated; empty without

@@ -360,8 +360,11 @@ void state(const Keys& root, Scene& scene) {
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
     if (shell.erodes || material.failure.given())
       shell.gone.assign(static_cast<std::size_t>(part.n_cells()), 0);
-    surfaces[static_cast<std::size_t>(number)] = {section.thickness, material.E, section.offset,
-                                                  shell.gone.empty() ? nullptr : &shell.gone};
+    surfaces[static_cast<std::size_t>(number)] = {
+        .thickness = section.thickness,
+        .young = material.E,
+        .offset = section.offset,
+        .gone = shell.gone.empty() ? nullptr : &shell.gone};
   }
 }
 

@@ -1,6 +1,7 @@
 // Solids as a part of a case: keys, drafts, state and operations.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "fe/solid.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "mesh/volume_shapes.hpp"
+#include "scene/surface_data.hpp"
 
 namespace gannet {
 
@@ -233,6 +235,10 @@ void state(const Keys& root, Scene& scene) {
     scale_masses(keys, block, scene);
     track(scene, block);
     add_measures(scene, block);
+    auto& surfaces = scene.store.get<SurfaceData>().of_part;
+    surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
+    surfaces[static_cast<std::size_t>(number)].bulk =
+        material.hyperelastic() ? material.rubber.bulk : material.E / (3 * (1 - 2 * material.nu));
   }
 }
 

@@ -15,6 +15,7 @@ struct ShellSurface {
   /// For each cell of the part whether it has left; nullptr where none can. Up to date in the force
   /// stage once the elements have been passed over.
   const std::vector<std::uint8_t>* gone = nullptr;
+  double bulk = 0;  ///< bulk modulus of a part of solids [Pa]
 };
 
 /// scene.store.get<SurfaceData>().of_part[p] belongs to scene.parts[p]; may be shorter than the
