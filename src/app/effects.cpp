@@ -67,6 +67,7 @@ std::vector<Effect> make_table() {
       displaced_fill_effect(),     // when all parts have their points
       plane_contact_effect(),      //
       contacts_effect(),           //
+      part_contacts_effect(),      //
       pressure_effect(),           //
       nodal_force_effect(),        //
       acceleration_effect(),       //

@@ -9,6 +9,7 @@
 
 #include "contact/effects.hpp"
 #include "contact/node_to_segment.hpp"
+#include "contact/part_kinds.hpp"
 #include "contact/planes.hpp"
 #include "scene/particle_material.hpp"
 #include "scene/surface_data.hpp"
@@ -25,7 +26,9 @@ Schema schema() {
   const std::string path = "contacts.*";
   Key between{.name = "between",
               .kind = Kind::names,
-              .text = "two parts: particles and shells; or a shell and a boundary's planes",
+              .text =
+                  "two parts: particles and shells, or both of elements; or a shell and a "
+                  "boundary's planes",
               .required = true};
   Key type{.name = "type",
            .kind = Kind::choice,
@@ -113,11 +116,12 @@ Sides sides_of(const Keys& keys, const Scene& scene) {
   const bool known = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
     return scene.part_number(name) >= 0 || !planes_of(scene, name).empty();
   });
-  if (known && !sides.complete()) {
+  const bool elements = element_parts(scene, names)[0] >= 0;  // see part_contacts.cpp
+  if (known && !elements && !sides.complete()) {
     keys.complain("between",
                   fmt::format("[{}, {}] are not a part of particles and one of shells, nor a part "
                               "of shells and a boundary with planes (particles meet all planes "
-                              "without being told)",
+                              "without being told), nor two parts of elements",
                               names[0], names[1]));
   }
   return sides;

@@ -11,6 +11,9 @@ Effect plane_contact_effect();
 /// contacts.NAME: {between, type: node_to_segment, friction, thickness, stiffness, damping}.
 Effect contacts_effect();
 
+/// contacts.NAME between two parts of elements.
+Effect part_contacts_effect();
+
 /// ties.NAME: nodes that hang on rigid bodies. Stands after `rigid bodies`, whose groups it adds
 /// to, and after all that pushes nodes.
 Effect ties_effect();

@@ -102,6 +102,10 @@ Sample plane_sample() {
   return {[] { return std::make_unique<WatchedRun>(plane_block); }, 150, false};
 }
 
+Sample meeting_sample() {
+  return {[] { return std::make_unique<WatchedRun>(blocks_that_meet); }, 150, false};
+}
+
 Sample shells_sample(const std::string& formulation) {
   return {[formulation] { return std::make_unique<WatchedRun>(shells(formulation)); }, 150, false};
 }
@@ -402,6 +406,11 @@ TEST_CASE("same bits: metals that warm, turn round and fail, 1, 2, 3 and 5 threa
 TEST_CASE("same bits: plane solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
   check_threads(plane_sample());
   check_restart(plane_sample());
+}
+
+TEST_CASE("same bits: parts that meet, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(meeting_sample());
+  check_restart(meeting_sample());
 }
 
 TEST_CASE("same bits: shells that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

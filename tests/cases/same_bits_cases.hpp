@@ -360,4 +360,28 @@ boundaries:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// Two blocks of meshes that do not fit and a sheet over them that touch from the start, slide,
+/// part and meet again: more than one chunk of nodes on each, friction and damping.
+inline const std::string blocks_that_meet = R"case(gannet: 1
+materials: {gum: {density: 1100, young: 20 MPa, poisson: 0.4}, alu: {density: 2700, young: 70 GPa, poisson: 0.3}}
+parts:
+  low:
+    solid: {material: gum}
+    shape: {block: {from: [0, 0, 0], to: [0.2 m, 0.2 m, 30 mm], elements: [20, 20, 3]}}
+    initial_velocity: ["2*y", "-2*x", "5*sin(30*x)"]
+  high:
+    solid: {material: gum, formulation: tetrahedra}
+    shape: {block: {from: [13 mm, -20 mm, 30 mm], to: [0.17 m, 0.16 m, 50 mm], elements: [14, 13, 2]}}
+    initial_velocity: [3 m/s, 0, "-20 - 100*x"]
+  sheet:
+    shell: {material: alu, thickness: 1 mm}
+    shape: {plate: {size: [0.15 m, 0.15 m], elements: [17, 19], centre: [0.1 m, 0.07 m, 50.4 mm]}}
+    initial_velocity: [0, -5 m/s, -40 m/s]
+contacts:
+  lower: {between: [low, high], friction: 0.3}
+  upper: {between: [sheet, high], friction: 0.1, damping: 0.2}
+  through: {between: [low, sheet]}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 }  // namespace gannet::test

@@ -91,7 +91,7 @@ TEST_CASE("contacts: mistakes name the parts there are", "[contact]") {
             "no part 'hull'; parts are: plate, water"));
   CHECK(has(Contacted("{between: [water]}").mistake(), "1 names; two are wanted"));
   CHECK(has(Contacted("{between: [water, tank]}").mistake(), "particles meet all planes"));
-  CHECK(has(Contacted("{between: [plate, plate]}").mistake(), "are not a part of particles"));
+  CHECK(has(Contacted("{between: [water, water]}").mistake(), "are not a part of particles"));
   CHECK(has(Contacted("{between: [plate, tank], friction: 0.1}").mistake(), "neither friction"));
   CHECK_THROWS_AS(Contacted("{between: [water, plate], friction: -1}"), InputError);
 }

@@ -1,0 +1,137 @@
+// The effect `contacts of parts`: contacts.NAME between two parts of elements.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "contact/effects.hpp"
+#include "contact/part_contact.hpp"
+#include "contact/part_kinds.hpp"
+
+namespace gannet {
+
+namespace {
+
+Schema schema() {
+  return {{"contacts.*",
+           {.name = "both_ways",
+            .kind = Kind::flag,
+            .text = "between parts of elements: the nodes of each part against the surface of the "
+                    "other, on unless said; off: those of the first against the second"}}};
+}
+
+ShellSurface data_of(Scene& scene, int part) {
+  const auto& all = scene.store.get<SurfaceData>().of_part;
+  const auto p = static_cast<std::size_t>(part);
+  return p < all.size() ? all[p] : ShellSurface{};
+}
+
+/// False after a complaint.
+bool parts_can_meet(const Keys& keys, const Scene& scene, std::array<int, 2> parts) {
+  const Part& a = scene.parts[static_cast<std::size_t>(parts[0])];
+  const Part& b = scene.parts[static_cast<std::size_t>(parts[1])];
+  if (parts[0] == parts[1]) {
+    keys.complain(
+        "between",
+        fmt::format("'{}' stands twice; contact of a part with itself is not built yet", a.name));
+    return false;
+  }
+  for (const Part* p : {&a, &b}) {
+    if (has_surface(*p)) continue;
+    keys.complain("between", fmt::format("part '{}' ({}) has no surface; parts of shells, solids "
+                                         "and rigid surfaces have one",
+                                         p->name, p->kind));
+    return false;
+  }
+  if (a.rigid && b.rigid) {
+    keys.complain("between", fmt::format("parts '{}' and '{}' are both rigid, and their contact "
+                                         "has no stiffness to go by; it is not built yet",
+                                         a.name, b.name));
+    return false;
+  }
+  return true;
+}
+
+/// Nothing stands between two surfaces without an inside where they have no thickness.
+void complain_of_no_distance(const Keys& keys, const PartContact& c) {
+  if (c.directions[0].range.contact > 0 || (c.sides[0].solid && c.sides[1].solid)) return;
+  if (c.directions.size() == 1 && c.sides[c.directions[0].segments].solid) return;
+  keys.complain("between", "neither part has a thickness; say by 'thickness' where contact begins");
+}
+
+void state(const Keys& root, Scene& scene) {
+  if (!root.has("contacts")) return;
+  const Keys contacts = root.map("contacts");
+  for (const std::string& name : contacts.names()) {
+    const Keys keys = contacts.map(name);
+    const std::array<int, 2> parts = element_parts(scene, keys.words("between"));
+    if (parts[0] < 0) {
+      if (keys.given("both_ways")) {
+        keys.complain("both_ways", "has no meaning: only two parts of elements can meet both ways");
+      }
+      continue;
+    }
+    if (!parts_can_meet(keys, scene, parts)) continue;
+    const bool both = !keys.has("both_ways") || keys.flag("both_ways");
+    PartContact& c =
+        make_part_contact(scene, name, parts, {data_of(scene, parts[0]), data_of(scene, parts[1])},
+                          both, keys.number("friction") > 0);
+    c.where = keys.where();
+    c.factor = keys.number("stiffness");
+    c.law.friction = keys.number("friction");
+    c.law.damping = keys.number("damping");
+    set_distance(c,
+                 keys.number_or("thickness", 0.5 * (c.sides[0].thickness + c.sides[1].thickness)));
+    complain_of_no_distance(keys, c);
+  }
+}
+
+void operations(const Keys& root, Scene& scene, Models& models) {
+  if (!scene.store.has<PartContacts>()) return;
+  for (PartContact& c : scene.store.get<PartContacts>().list) {
+    const Keys keys = root.map("contacts").map(c.name);
+    Model& model = models.of_part(scene, c.sides[0].part);
+    if (&model != &models.of_part(scene, c.sides[1].part)) {
+      keys.complain("between",
+                    "the two parts advance in different models, with steps of their own; contact "
+                    "of elements across models is not built yet");
+      continue;
+    }
+    add_part_contact(scene, c, model, models.ledger);
+  }
+  for (auto& [model, meeting] : scene.store.get<PartContacts>().meetings) {
+    add_part_contact_operations(scene, meeting, *model);
+  }
+}
+
+/// Contact distances and directions, where the case leaves them open.
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  if (!scene.store.has<PartContacts>()) return list;
+  for (const PartContact& c : scene.store.get<PartContacts>().list) {
+    const Keys keys = root.map("contacts").map(c.name);
+    if (!keys.given("thickness")) {
+      list.push_back({keys.path() + ".thickness",
+                      fmt::format("{:.4g} m", c.directions[0].range.contact),
+                      "half the thicknesses of both parts; solids have none"});
+    }
+    if (!keys.given("both_ways")) {
+      list.push_back({keys.path() + ".both_ways", "on",
+                      "the nodes of each part against the surface of the other"});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+Effect part_contacts_effect() {
+  return {.name = "contacts of parts",
+          .schema = schema,
+          .state = state,
+          .operations = operations,
+          .choices = choices};
+}
+
+}  // namespace gannet
