@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/simulation.hpp"
 #include "base/parallel.hpp"
+#include "contact/gap.hpp"
 #include "fe/beam.hpp"
 #include "fe/mooring.hpp"
 #include "fe/shell.hpp"
@@ -257,6 +258,28 @@ BenchResult bench_mooring(int n, bool whole_step) {
   return r;
 }
 
+/// Two sheets of n x n shells that slide on each other over their whole area: the contact alone,
+/// both ways, its lists made anew as they get stale.
+BenchResult bench_part_contact(int n) {
+  const auto simulation = moving_elements(fmt::format(
+      "{{low: {{shell: {{material: steel, thickness: 10 mm}}, shape: {{plate: {{size: [1 m, 1 m], "
+      "elements: [{0}, {0}]}}}}}}, high: {{shell: {{material: steel, thickness: 10 mm}}, shape: "
+      "{{plate: {{size: [1 m, 1 m], elements: [{0}, {0}], centre: [3 mm, 2 mm, 10 mm]}}}}}}}}\n"
+      "contacts: {{slide: {{between: [low, high], friction: 0.1}}}}",
+      n));
+  Model& model = simulation->models.list.front();
+  BenchResult r;
+  for (Operation& op : model.plan.at(Stage::force)) {
+    if (op.name != "contact: parts") continue;
+    r.median_seconds = median_seconds(9, [&] { op.run(model.step); });
+  }
+  r.size = 2 * (n + 1) * (n + 1);
+  r.rate = static_cast<double>(r.size) / r.median_seconds;
+  r.unit = "node-steps/s";
+  r.bytes_per_item = sizeof(Gap) + 4 * sizeof(Vec3) + 2 * sizeof(Line);
+  return r;
+}
+
 std::vector<Benchmark> all_benchmarks() {
   return {
       {"fe.shell.pass.50k", [] { return bench_shell(224); }},
@@ -282,6 +305,7 @@ std::vector<Benchmark> all_benchmarks() {
       {"fe.mooring.pass.1k", [] { return bench_mooring(1000, false); }},
       {"fe.mooring.step.1k", [] { return bench_mooring(1000, true); }},
       {"fe.mooring.step.80", [] { return bench_mooring(80, true); }},
+      {"contact.parts.50k", [] { return bench_part_contact(157); }},
       {"sph.pass.rates.100k", [] { return bench_sph_pass(46, Pass::rates); }},
       {"sph.pass.force.100k", [] { return bench_sph_pass(46, Pass::force); }},
       {"sph.pass.fused.100k", [] { return bench_sph_pass(46, Pass::fused); }},
