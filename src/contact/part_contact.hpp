@@ -96,9 +96,10 @@ Gap gap_of_solid(const Surface& surface, const Nearest& nearest, const Vec3& x, 
 double pair_stiffness(const PartSide& points, const PartSide& segments, std::size_t i,
                       const Gap& gap, double factor);
 
-/// Makes a contact between two parts that have surfaces: the nodes of the first against the
-/// second, and the other way where `both_ways`. data: of the two. Tracks its fields, registers
-/// its measures ("contact.NAME.force": on the second part; .active, .overlaps, .overlap_depth).
+/// Makes a contact between two parts, one of which has a surface at least: the nodes of the first
+/// against the second, and the other way where `both_ways`; of cables and beams the nodes only.
+/// data: of the two. Tracks its fields, registers its measures ("contact.NAME.force": on the second
+/// part; .active, .overlaps, .overlap_depth).
 PartContact& make_part_contact(Scene& scene, const std::string& name, std::array<int, 2> parts,
                                std::array<ShellSurface, 2> data, bool both_ways, bool friction);
 

@@ -150,8 +150,8 @@ PartContact& make_part_contact(Scene& scene, const std::string& name, std::array
   all.waits.push_back(0);
   c.followers = &scene.store.get<Followers>();
   for (std::size_t k = 0; k < 2; ++k) c.sides[k] = make_part_side(scene, parts[k], data[k]);
-  add_direction(c, 0, friction);
-  if (both_ways) add_direction(c, 1, friction);
+  if (!c.sides[1].line) add_direction(c, 0, friction);
+  if (both_ways && !c.sides[0].line) add_direction(c, 1, friction);
   track_fields(scene, c);
   add_measures(scene, c);
   scene.after_restart.push_back([&c] {

@@ -28,7 +28,7 @@ ShellSurface data_of(Scene& scene, int part) {
 }
 
 /// False after a complaint.
-bool parts_can_meet(const Keys& keys, const Scene& scene, std::array<int, 2> parts) {
+bool parts_can_meet(const Keys& keys, Scene& scene, std::array<int, 2> parts) {
   const Part& a = scene.parts[static_cast<std::size_t>(parts[0])];
   const Part& b = scene.parts[static_cast<std::size_t>(parts[1])];
   if (parts[0] == parts[1]) {
@@ -37,11 +37,18 @@ bool parts_can_meet(const Keys& keys, const Scene& scene, std::array<int, 2> par
         fmt::format("'{}' stands twice; contact of a part with itself is not built yet", a.name));
     return false;
   }
-  for (const Part* p : {&a, &b}) {
-    if (has_surface(*p)) continue;
-    keys.complain("between", fmt::format("part '{}' ({}) has no surface; parts of shells, solids "
-                                         "and rigid surfaces have one",
-                                         p->name, p->kind));
+  if (is_line(a) && is_line(b)) {
+    keys.complain("between", fmt::format("parts '{}' ({}) and '{}' ({}) have no surface; parts of "
+                                         "shells, solids and rigid surfaces have one",
+                                         a.name, a.kind, b.name, b.kind));
+    return false;
+  }
+  for (const int p : parts) {
+    const Part& part = scene.parts[static_cast<std::size_t>(p)];
+    if (!is_line(part) || part.rigid || data_of(scene, p).axial > 0) continue;
+    keys.complain("between", fmt::format("'{}' is a mooring line, which knows its own bed only; "
+                                         "contact of it with parts is not built yet",
+                                         part.name));
     return false;
   }
   if (a.rigid && b.rigid) {
@@ -73,7 +80,12 @@ void state(const Keys& root, Scene& scene) {
       continue;
     }
     if (!parts_can_meet(keys, scene, parts)) continue;
-    const bool both = !keys.has("both_ways") || keys.flag("both_ways");
+    const bool lines = is_line(scene.parts[static_cast<std::size_t>(parts[0])]) ||
+                       is_line(scene.parts[static_cast<std::size_t>(parts[1])]);
+    if (lines && keys.given("both_ways")) {
+      keys.complain("both_ways", "has no meaning: cables and beams have no surface to be met");
+    }
+    const bool both = lines || !keys.has("both_ways") || keys.flag("both_ways");
     PartContact& c =
         make_part_contact(scene, name, parts, {data_of(scene, parts[0]), data_of(scene, parts[1])},
                           both, keys.number("friction") > 0);
@@ -116,7 +128,8 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
                       fmt::format("{:.4g} m", c.directions[0].range.contact),
                       "half the thicknesses of both parts; solids have none"});
     }
-    if (!keys.given("both_ways")) {
+    const bool lines = c.sides[0].line || c.sides[1].line;
+    if (!lines && !keys.given("both_ways")) {
       list.push_back({keys.path() + ".both_ways", "on",
                       "the nodes of each part against the surface of the other"});
     }

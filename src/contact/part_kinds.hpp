@@ -9,10 +9,12 @@
 
 namespace gannet {
 
+/// Parts of cables and beams: nodes, and no surface.
+inline bool is_line(const Part& part) { return part.kind == "cable" || part.kind == "beam"; }
+
 /// Parts of shells, solids and rigid surfaces; not cables, beams and particles.
 inline bool has_surface(const Part& part) {
-  return !part.is_particles() && part.kind != "cable" && part.kind != "beam" &&
-         part.cell != Cell::point;
+  return !part.is_particles() && !is_line(part) && part.cell != Cell::point;
 }
 
 /// The numbers of two parts of elements; {-1, -1} where the names are not two, or one is no part or

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "contact/outer_faces.hpp"
+#include "contact/part_kinds.hpp"
 
 namespace gannet {
 
@@ -15,6 +16,7 @@ namespace {
 /// meshes asks for about the step of their elements.
 constexpr double share_of_solid = 0.4;
 constexpr double share_of_shell = 0.1;
+constexpr double share_of_line = 0.1;
 
 /// Penalty per area that each segment can bear [Pa/m], and the size of what is behind it [m].
 struct Bearing {
@@ -44,6 +46,42 @@ void spread(const std::vector<Bearing>& bearing, PartSide& side) {
   for (std::size_t i = 0; i < count.size(); ++i) side.kappa[i] /= std::max(1, count[i]);
 }
 
+/// A surface of nodes alone.
+Surface nodes_alone(const Part& part) {
+  Surface surface;
+  surface.node.assign(part.connectivity.begin(), part.connectivity.end());
+  std::sort(surface.node.begin(), surface.node.end());
+  surface.node.erase(std::unique(surface.node.begin(), surface.node.end()), surface.node.end());
+  surface.x.resize(surface.node.size());
+  surface.node_normal.resize(surface.node.size());
+  surface.at_rim.resize(surface.node.size());
+  return surface;
+}
+
+PartSide make_line_side(const Scene& scene, int number, const ShellSurface& data) {
+  const Part& part = scene.parts[static_cast<std::size_t>(number)];
+  PartSide side;
+  side.part = number;
+  side.line = true;
+  side.thickness = data.thickness;
+  side.surface = nodes_alone(part);
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < part.connectivity.size(); i += 2) {
+    length += (xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[i + 1])]) -
+               xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[i])]))
+                  .norm();
+  }
+  const double L = length / static_cast<double>(part.n_cells());
+  const double k =
+      part.rigid ? std::numeric_limits<double>::infinity() : share_of_line * data.axial / L;
+  side.depth = L;
+  side.kappa.assign(side.surface.node.size(), k / (L * L));
+  side.area.assign(side.surface.node.size(), L * L);
+  side.facing.assign(side.surface.node.size(), Vec3::Zero());
+  side.x_search.resize(side.surface.node.size());
+  return side;
+}
+
 }  // namespace
 
 Vec3 area_vector(const Segment& g, const Array<Line>& x) {
@@ -55,6 +93,7 @@ Vec3 area_vector(const Segment& g, const Array<Line>& x) {
 
 PartSide make_part_side(const Scene& scene, int number, const ShellSurface& data) {
   const Part& part = scene.parts[static_cast<std::size_t>(number)];
+  if (is_line(part)) return make_line_side(scene, number, data);
   PartSide side;
   side.part = number;
   side.solid = part.kind == "solid";
@@ -96,6 +135,7 @@ void find_areas(const Surface& surface, const Array<Line>& x, std::vector<double
 
 void update_side(const Nodes& nodes, PartSide& side) {
   update_surface(nodes, side.surface);
+  if (side.line) return;
   find_areas(side.surface, side.surface.x, side.area, side.facing);
 }
 

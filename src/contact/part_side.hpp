@@ -14,7 +14,8 @@ namespace gannet {
 struct PartSide {
   int part = -1;
   bool solid = false;    ///< its surface has an inside
-  double thickness = 0;  ///< of the part, by which contact stands off [m]
+  bool line = false;     ///< cables or beams: nodes, and no surface that others could meet
+  double thickness = 0;  ///< of the part, by half of which contact stands off [m]
   double depth = 0;      ///< smallest size of an element behind its surface [m]
   Surface surface;
   /// Per surface node the penalty per area and penetration [Pa/m]: the mean over the segments
@@ -25,7 +26,8 @@ struct PartSide {
   Array<Line> x_search;      ///< tracked: positions when the list was made [m]
 };
 
-/// The side of a contact that a part of solids, shells or a rigid surface is.
+/// The side of a contact that a part of solids, shells, cables or beams or a rigid surface is. A
+/// node of a line of elements of length L counts for an area L^2, and kappa = 0.1 EA/L^3.
 /// data: of that part. Needs the positions of the start in the node table.
 PartSide make_part_side(const Scene& scene, int part, const ShellSurface& data);
 

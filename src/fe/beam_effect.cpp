@@ -1,6 +1,8 @@
 // Beams as a part of a case: keys, drafts, state and operations.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "mesh/line_shapes.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "scene/node_set.hpp"
+#include "scene/surface_data.hpp"
 
 namespace gannet {
 
@@ -184,6 +187,14 @@ void scale_masses(const Keys& part, BeamBlock& block, Scene& scene) {
   scale_masses(part, block.part, scene, {&elements, 1});
 }
 
+/// Outer radius of the round tube of the same area and mean second moment [m]:
+/// I = A (R^2 + r^2)/4 and A = pi (R^2 - r^2) give R^2 = 2 I/A + A/(2 pi).
+double radius_of(const BeamSection& section) {
+  constexpr double pi = 3.14159265358979323846;
+  const double I = 0.5 * (section.I_y + section.I_z);
+  return std::sqrt(2 * I / section.A + section.A / (2 * pi));
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "beam")) {
     const int number = scene.part_number(keys.name());
@@ -208,6 +219,10 @@ void state(const Keys& root, Scene& scene) {
     read_releases(beam, scene, block);
     scale_masses(keys, block, scene);
     track(scene, block);
+    auto& surfaces = scene.store.get<SurfaceData>().of_part;
+    surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
+    surfaces[static_cast<std::size_t>(number)].thickness = 2 * radius_of(law.section);
+    surfaces[static_cast<std::size_t>(number)].axial = law.E * law.section.A;
   }
 }
 

@@ -1,4 +1,6 @@
 // Cables and trusses as a part of a case: keys, drafts, state and operations.
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -9,10 +11,13 @@
 #include "fe/truss.hpp"
 #include "mesh/line_shapes.hpp"
 #include "mesh/mesh_keys.hpp"
+#include "scene/surface_data.hpp"
 
 namespace gannet {
 
 namespace {
+
+constexpr double pi = 3.14159265358979323846;
 
 Schema schema() {
   return element_schema("cable", "the part is a line of cable or truss elements", cable_keys());
@@ -65,6 +70,12 @@ void state(const Keys& root, Scene& scene) {
     scale_masses(keys, block, scene);
     track_cable(scene, block, "cable");
     add_cable_measures(scene, block);
+    auto& surfaces = scene.store.get<SurfaceData>().of_part;
+    surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
+    ShellSurface& data = surfaces[static_cast<std::size_t>(number)];
+    data.axial = block.EA;
+    const Keys cable = keys.map("cable");
+    if (cable.has("area")) data.thickness = 2 * std::sqrt(cable.number("area") / pi);
   }
 }
 

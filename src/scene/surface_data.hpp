@@ -9,13 +9,14 @@ namespace gannet {
 
 /// The surface of one part; zeros where a part has none.
 struct ShellSurface {
-  double thickness = 0;  ///< of the shell at the start [m]
+  double thickness = 0;  ///< of the shell at the start, diameter of a cable or beam [m]
   double young = 0;      ///< Young's modulus [Pa]
   double offset = 0;     ///< of the middle of the shell from its nodes, along their normals [m]
   /// For each cell of the part whether it has left; nullptr where none can. Up to date in the force
   /// stage once the elements have been passed over.
   const std::vector<std::uint8_t>* gone = nullptr;
-  double bulk = 0;  ///< bulk modulus of a part of solids [Pa]
+  double bulk = 0;   ///< bulk modulus of a part of solids [Pa]
+  double axial = 0;  ///< axial stiffness EA of a part of cables or beams [N]
 };
 
 /// scene.store.get<SurfaceData>().of_part[p] belongs to scene.parts[p]; may be shorter than the

@@ -215,6 +215,47 @@ TEST_CASE("part contact: a sliding block stops where friction says", "[contact][
   }
 }
 
+TEST_CASE("part contact: a cable and a beam slide on a bed and stop", "[contact][physics]") {
+  const bool beam = GENERATE(false, true);
+  const double mu = 0.2;
+  const double v0 = 1;
+  const double g = 9.81;
+  const auto s = make_simulation_of_text(fmt::format(
+      "gannet: 1\n"
+      "materials: {{wood: {{density: 1000, young: 100 MPa, poisson: 0.3}}}}\n"
+      "parts:\n"
+      "  line: {{{}, shape: {{line: {{from: [0, 0, 0.1], to: [10 m, 0, 0.1], elements: 10}}}}, "
+      "initial_velocity: [0.6 m/s, 0.8 m/s, 0]}}\n"
+      "  bed: {{rigid_surface: {{}}, shape: {{plate: {{size: [30 m, 10 m], elements: [7, 3]}}}}}}\n"
+      "contacts: {{lie: {{between: [line, bed], friction: {}, damping: 0.5}}}}\n"
+      "loads: {{gravity: [0, 0, -9.81 m/s^2]}}\n"
+      "output: {{until: 1 s}}\n",
+      beam ? "beam: {material: wood, section: {solid_round: {diameter: 0.2 m}}}"
+           : "cable: {material: wood, area: 0.031415926535898 m^2}",
+      mu));
+  const Range nodes = s->scene.parts[0].nodes;
+  const Vec3 x0 = xyz(s->scene.nodes.x[static_cast<std::size_t>(nodes.begin)]);
+  double weight = 0;
+  double time = 0;
+  double last = 0;
+  run_until(*s, 1, [&] {
+    const Step& step = s->models.list.front().step;
+    if (step.t > 0.3) {
+      weight += measured(s->scene, "contact.lie.force", 2) * (step.t - last);
+      time += step.t - last;
+    }
+    last = step.t;
+  });
+  const Vec3 way = xyz(s->scene.nodes.x[static_cast<std::size_t>(nodes.begin)]) - x0;
+  const double exact = v0 * v0 / (2 * mu * g);
+  fmt::print("{} on a bed: {:.5g} m (exact {:.5g}), force on the bed {:.5g} N; energy {:.2g}\n",
+             beam ? "beam" : "cable", std::hypot(way.x(), way.y()), exact, weight / time,
+             energy_error(*s));
+  CHECK(std::hypot(way.x(), way.y()) == Approx(exact).epsilon(0.01));
+  CHECK(weight / time == Approx(-1000 * 0.0314159265 * 10 * g).epsilon(0.005));
+  CHECK(energy_error(*s) < 0.01);
+}
+
 TEST_CASE("part contact: parts far apart cost next to nothing", "[contact][physics]") {
   std::string parts;
   std::string contacts;
