@@ -1,7 +1,10 @@
 #include "body/prescribed_motion.hpp"
 
+#include <algorithm>
+
 #include "base/parallel.hpp"
 #include "plan/effect.hpp"
+#include "plan/link.hpp"
 
 namespace gannet {
 
@@ -108,6 +111,36 @@ void set_velocities(const PrescribedMotion& motion, Nodes& nodes, double t) {
   }
 }
 
+namespace {
+
+/// What impulses of slower models add to the forces that the motion holds back: off the reactions,
+/// it leaves those to the forces themselves.
+Excess held_impulses(const PrescribedMotion& motion, const Scene& scene) {
+  Excess held;
+  const Links* links = scene.store.find<Links>();
+  if (links == nullptr) return held;
+  const auto masked = [](Vec3 value, unsigned mask) {
+    for (int d = 0; d < 3; ++d)
+      value[d] = (mask >> static_cast<unsigned>(d) & 1u) != 0 ? value[d] : 0;
+    return value;
+  };
+  for (const Link* link : links->list) {
+    if (link->ratio == 0) continue;
+    for (std::size_t k = 0; k < link->nodes.size(); ++k) {
+      const auto at = std::ranges::find(motion.nodes, link->nodes[k]);
+      if (at == motion.nodes.end()) continue;
+      const unsigned mask = motion.mask[static_cast<std::size_t>(at - motion.nodes.begin())];
+      const Vec3 f = (link->ratio - 1) * masked(xyz(link->force[k]), mask);
+      const Vec3 x = xyz(scene.nodes.x[static_cast<std::size_t>(link->nodes[k])]);
+      held.force += f;
+      held.moment += x.cross(f) + (link->ratio - 1) * masked(xyz(link->moment[k]), mask >> 3);
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
 void add_prescribed_motion(PrescribedMotion& motion, Scene& scene, Models& models) {
   Nodes& nodes = scene.nodes;
   motion.reaction.assign(motion.nodes.size(), {});
@@ -139,11 +172,15 @@ void add_prescribed_motion(PrescribedMotion& motion, Scene& scene, Models& model
   const auto write = [](const Vec3& value, double* to) {
     for (int d = 0; d < 3; ++d) to[d] = value[d];
   };
-  scene.measures.push_back({"boundary." + motion.name + ".force", "N", components,
-                            [&motion, write](double* to) { write(reaction_force(motion), to); }});
+  scene.measures.push_back(
+      {"boundary." + motion.name + ".force", "N", components, [&motion, &scene, write](double* to) {
+         write(reaction_force(motion) + held_impulses(motion, scene).force, to);
+       }});
   scene.measures.push_back(
       {"boundary." + motion.name + ".moment", "N m", components,
-       [&motion, &nodes, write](double* to) { write(reaction_moment(motion, nodes), to); }});
+       [&motion, &scene, &nodes, write](double* to) {
+         write(reaction_moment(motion, nodes) + held_impulses(motion, scene).moment, to);
+       }});
 }
 
 }  // namespace gannet

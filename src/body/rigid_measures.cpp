@@ -30,6 +30,15 @@ Excess excess_of(const Scene& scene, const RigidBody& body) {
       [&](Index i) { return i == body.node || std::ranges::binary_search(body.members, i); });
 }
 
+/// The components of a vector whose motion is given, from bit `first` of the mask on: there the
+/// reaction has held back the impulses too.
+Vec3 given(const RigidBody& body, unsigned first, Vec3 value) {
+  for (unsigned d = 0; d < 3; ++d) {
+    if ((body.motion.mask >> (first + d) & 1u) == 0) value[static_cast<int>(d)] = 0;
+  }
+  return value;
+}
+
 std::vector<BodyVector> vectors_of(const Scene& scene, const Model& model, const RigidBody& body) {
   const Nodes& nodes = scene.nodes;
   const auto c = static_cast<std::size_t>(body.node);
@@ -61,12 +70,16 @@ std::vector<BodyVector> vectors_of(const Scene& scene, const Model& model, const
        "N",
        {"reaction x", "reaction y", "reaction z"},
        false,
-       [&body] { return body.reaction; }},
+       [&scene, &body]() -> Vec3 {
+         return body.reaction + given(body, 0, excess_of(scene, body).force);
+       }},
       {"reaction_moment",
        "N m",
        {"reaction mx", "reaction my", "reaction mz"},
        true,
-       [&body] { return body.couple; }},
+       [&scene, &body]() -> Vec3 {
+         return body.couple + given(body, 3, excess_of(scene, body).moment);
+       }},
   };
 }
 
