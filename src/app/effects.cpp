@@ -71,7 +71,7 @@ std::vector<Effect> make_table() {
       pressure_effect(),           //
       nodal_force_effect(),        //
       acceleration_effect(),       //
-      ties_effect(),               // measures what all of these put on tied nodes
+      ties_effect(),               // nodes that bodies take over
       periodic_effect(),           // copies out what moved, adds back what ghosts collected
       mirror_walls_effect(),       // images at walls; adds to what planes measure
       prescribed_motion_effect(),  // after all forces: measures the reactions

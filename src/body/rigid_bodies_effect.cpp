@@ -263,6 +263,22 @@ void add_probes(const Keys& root, Scene& scene, Models& models, const NamedBody&
   }
 }
 
+/// Notes what acts on nodes that are tied to a body, weight and all, before the body gathers it.
+void note_forces(Scene& scene, Model& model, PartGroup& group, const Keys& keys) {
+  if (group.nodes.empty()) return;
+  group.forces.assign(group.nodes.size(), Vec3::Zero());
+  model.plan.add({.name = group.name + ": forces on tied nodes",
+                  .reason = asked_for_at(keys.where()),
+                  .stage = Stage::accelerate,
+                  .reads = {"f"},
+                  .run = [&scene, &group](const Step&) {
+                    for (std::size_t k = 0; k < group.nodes.size(); ++k) {
+                      const auto i = static_cast<std::size_t>(group.nodes[k]);
+                      group.forces[k] = xyz(scene.nodes.f[i]) + group.masses[k] * scene.gravity;
+                    }
+                  }});
+}
+
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!root.has("bodies")) return;
   for (NamedBody& body : scene.store.get<NamedBodies>().list) {
@@ -270,6 +286,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     make_body(keys, scene, body);
     if (body.body == nullptr || !in_one_model(keys, scene, models, body)) continue;
     Model& model = models.of_node(body.body->node);
+    note_forces(scene, model, *scene.group(body.name), keys);
     add_rigid_body_operations(scene, model, models.ledger, *body.body);
     add_body_measures(scene, model, *body.body);
     add_probes(root, scene, models, body);

@@ -15,7 +15,7 @@ Effect contacts_effect();
 Effect part_contacts_effect();
 
 /// ties.NAME: nodes that hang on rigid bodies. Stands after `rigid bodies`, whose groups it adds
-/// to, and after all that pushes nodes.
+/// to.
 Effect ties_effect();
 
 }  // namespace gannet

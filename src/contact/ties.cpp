@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <deque>
 #include <string>
 #include <vector>
 
@@ -17,20 +16,6 @@
 namespace gannet {
 
 namespace {
-
-struct Tie {
-  std::string name;
-  Location where;
-  std::string to;
-  std::vector<Index> nodes;
-  double mass = 0;            ///< of the nodes, which the body has [kg]
-  Vec3 force = Vec3::Zero();  ///< on the body at this level [N]
-};
-
-/// Found by scene.store.
-struct Ties {
-  std::deque<Tie> list;
-};
 
 Schema schema() {
   return {{"ties.*", node_set_key("nodes", true)},
@@ -76,6 +61,15 @@ std::string trouble_with(const Scene& scene, const PartGroup& group, Index node)
   return "";
 }
 
+/// Sum over these of the nodes of a group, as what moves the group noted it [N].
+Vec3 force_on(const std::vector<Index>& nodes, const PartGroup& group) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < group.forces.size(); ++k) {
+    if (std::ranges::find(nodes, group.nodes[k]) != nodes.end()) sum += group.forces[k];
+  }
+  return sum;
+}
+
 void make_tie(const Keys& keys, Scene& scene) {
   PartGroup* group = scene.group(keys.word("to"));
   const std::vector<Index> nodes = select_nodes(keys.map("nodes"), scene);
@@ -85,15 +79,13 @@ void make_tie(const Keys& keys, Scene& scene) {
     if (!trouble.empty()) return keys.complain("nodes", trouble);
   }
   group->nodes.insert(group->nodes.end(), nodes.begin(), nodes.end());
-  Tie& tie = scene.store.get<Ties>().list.emplace_back();
-  tie.name = keys.name();
-  tie.where = keys.where();
-  tie.to = group->name;
-  tie.nodes = nodes;
-  scene.measures.push_back(
-      {"tie." + tie.name + ".force", "N", {"x", "y", "z"}, [&tie](double* out) {
-         for (int d = 0; d < 3; ++d) out[d] = tie.force[d];
-       }});
+  scene.measures.push_back({"tie." + keys.name() + ".force",
+                            "N",
+                            {"x", "y", "z"},
+                            [&scene, nodes, to = group->name](double* out) {
+                              const Vec3 sum = force_on(nodes, *scene.group(to));
+                              for (int d = 0; d < 3; ++d) out[d] = sum[d];
+                            }});
 }
 
 void state(const Keys& root, Scene& scene) {
@@ -102,38 +94,8 @@ void state(const Keys& root, Scene& scene) {
   for (const std::string& name : ties.names()) make_tie(ties.map(name), scene);
 }
 
-/// Of the nodes, as the body noted it.
-double mass_of(const Tie& tie, const PartGroup& group) {
-  double mass = 0;
-  for (std::size_t k = 0; k < group.masses.size(); ++k) {
-    if (std::ranges::find(tie.nodes, group.nodes[k]) != tie.nodes.end()) mass += group.masses[k];
-  }
-  return mass;
-}
-
-/// Stands after all that pushes the nodes in their own model.
-void operations(const Keys& root, Scene& scene, Models& models) {
-  if (!root.has("ties")) return;
-  for (Tie& tie : scene.store.get<Ties>().list) {
-    tie.mass = mass_of(tie, *scene.group(tie.to));
-    models.of_node(tie.nodes.front())
-        .plan.add({.name = "force of tie " + tie.name,
-                   .reason = asked_for_at(tie.where),
-                   .stage = Stage::force,
-                   .reads = {"f"},
-                   .run = [&scene, &tie](const Step&) {
-                     tie.force = tie.mass * scene.gravity;
-                     for (const Index i : tie.nodes) {
-                       tie.force += xyz(scene.nodes.f[static_cast<std::size_t>(i)]);
-                     }
-                   }});
-  }
-}
-
 }  // namespace
 
-Effect ties_effect() {
-  return {.name = "ties", .schema = schema, .state = state, .operations = operations};
-}
+Effect ties_effect() { return {.name = "ties", .schema = schema, .state = state}; }
 
 }  // namespace gannet

@@ -122,7 +122,12 @@ void line_forces(MooringLine& line, Nodes& nodes, const Vec3& gravity, const Ste
     isa() == Isa::avx512 ? avx512::line_force_pass(pass, begin, end)
                          : avx2::line_force_pass(pass, begin, end);
   });
-  for (LineEnd& end : line.ends) end.force = xyz(nodes.f[static_cast<std::size_t>(end.node)]);
+  for (LineEnd& end : line.ends) {
+    const auto i = static_cast<std::size_t>(end.node);
+    end.force = xyz(nodes.f[i]);
+    // What an end is tied to has its mass, and its weight with it.
+    if (nodes.x[i].w == 0) end.force += 0.5 * line.block.mu * line.length / line.n * gravity;
+  }
   note_extremes(line);
 }
 

@@ -78,6 +78,7 @@ struct PartGroup {
   std::vector<int> parts;        ///< numbers in scene.parts
   std::vector<Index> nodes;      ///< of other parts, which move along
   std::vector<double> masses{};  ///< theirs, noted by what took them over [kg]
+  std::vector<Vec3> forces{};    ///< on them at this level, noted likewise [N]
 };
 
 /// A list of particle indices that someone keeps; permuted whenever particles are sorted.
