@@ -114,6 +114,12 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<ElementRelaxation>()) return;
   auto& r = scene.store.get<ElementRelaxation>();
   if (!r.asked_for) return;
+  if (models.list.size() > 1) {
+    root.map("effects").complain("element_relaxation",
+                                 "relaxes what advances in one model; leave out 'models' until the "
+                                 "elements are at rest");
+    return;
+  }
   const std::string reason = asked_for_at(root.map("effects").where("element_relaxation"));
   Plan& plan = models.of_node(r.nodes.begin).plan;
   LedgerEntry& lost = models.ledger.entry("relaxation", "elements");

@@ -167,6 +167,9 @@ class Reader {
     type.mass = number(row, {"massden", "mass/m", "massdeninair", "mass/length", "mass/l"}, 1);
     type.EA = number(row, {"ea"}, 1);
     type.damping = number(row, {"ba/-zeta", "ba", "ba/-z"}, 0);
+    if (!(type.EA > 0)) wrong(row.line, "an axial stiffness (EA) above 0 is wanted");
+    if (!(type.mass > 0)) wrong(row.line, "a mass per length above 0 is wanted");
+    if (!(type.diameter > 0)) wrong(row.line, "a diameter above 0 is wanted");
     const double EI = number(row, {"ei"}, 0, false);
     if (EI != 0) wrong(row.line, "bending stiffness (EI) is not supported: 0 is wanted");
     type.water.Cdn = number(row, {"cdn", "cd"}, 0);

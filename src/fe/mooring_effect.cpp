@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "fe/cable_part.hpp"
@@ -116,6 +117,30 @@ void add_measures(Scene& scene, const MooringLine& line) {
        .at_end = true});
 }
 
+/// At the line, or at the file that it is from.
+void complain_of(const Keys& root, const MooringLine& line, const std::string& text) {
+  const Keys moorings = root.map("moorings");
+  if (moorings.has(line.name)) {
+    moorings.map(line.name).complain("", text);
+  } else {
+    moorings.complain("file", line.name + ": " + text);
+  }
+}
+
+/// An end that is held does not hang on a body too.
+void check_ends(const Keys& root, const Scene& scene, const MooringLine& line) {
+  for (std::size_t e = 0; e < 2; ++e) {
+    const LineEnd& end = line.ends[e];
+    for (const PartGroup& group : scene.groups) {
+      const bool tied = std::ranges::find(group.nodes, end.node) != group.nodes.end();
+      if (!end.held || !tied) continue;
+      complain_of(root, line,
+                  fmt::format("its end '{0}' is held, and tied to '{1}': say free: [{0}]",
+                              e == 0 ? "from" : "to", group.name));
+    }
+  }
+}
+
 void make_state(const Keys& root, MooringLine made, Scene& scene) {
   const int number = scene.part_number(made.name);
   if (number < 0) return;
@@ -124,7 +149,15 @@ void make_state(const Keys& root, MooringLine made, Scene& scene) {
   line.block.name = part.name;
   line.block.part = number;
   line.block.ends = part.connectivity;
-  rest_at_present_length(line.block, scene.nodes);
+  try {
+    rest_at_present_length(line.block, scene.nodes);
+  } catch (const std::invalid_argument& e) {
+    complain_of(root, line,
+                fmt::format("{}: where the line lies in folds its start is not found; "
+                            "shorten it, or move its ends apart",
+                            e.what()));
+    return;
+  }
   add_truss_masses(line.block, scene.nodes);
   set_line_nodes(line, nodes_in_order(scene, part));
   if (line.bed.friction > 0) stick(line, start_of(line, gravity_of(root)));
@@ -222,6 +255,7 @@ void add_line(const Keys& root, Scene& scene, Models& models, MooringLine& line)
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<MooringLines>()) return;
   for (MooringLine& line : scene.store.get<MooringLines>().list) {
+    check_ends(root, scene, line);
     add_line(root, scene, models, line);
   }
 }
