@@ -142,8 +142,9 @@ constexpr std::int64_t first_steps = 20;
 
 void check_energy(const GuardState& state, const Step& s) {
   const EnergyBalance& b = state.balance;
-  if (s.n < first_steps && std::abs(b.start_held) <= 1e-9 * b.largest_total) return;
-  const double error = b.error_of_scale();
+  const bool known = std::isfinite(b.imbalance);
+  if (known && s.n < first_steps && std::abs(b.start_held) <= 1e-9 * b.largest_total) return;
+  const double error = known ? b.error_of_scale() : b.imbalance;
   if (std::abs(error) <= state.limits.energy_error) return;
   throw RunError(
       {fmt::format("the energy balance is off by {:.3g} %", 100 * error),
