@@ -70,6 +70,18 @@ void take(const std::string& name, int model, Scene& scene, Division& division) 
   }
 }
 
+/// Particles that no model names, as those of walls, advance with the ones that one does.
+void follow_particles(const Scene& scene, Division& division) {
+  int named = nowhere;
+  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+    if (scene.parts[k].is_particles()) named = std::max(named, division.model_of_part[k]);
+  }
+  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+    int& model = division.model_of_part[k];
+    if (scene.parts[k].is_particles() && model == nowhere) model = named;
+  }
+}
+
 /// Particles are sorted among each other, whatever their part.
 void keep_particles_together(const Scene& scene, Division& division) {
   int first = nowhere;
@@ -113,6 +125,7 @@ Division divide(const Keys& models, Scene& scene) {
       take(part, static_cast<int>(division.keys.size()) - 1, scene, division);
     }
   }
+  follow_particles(scene, division);
   for (const PartGroup& group : scene.groups) follow_ties(group, scene, division);
   for (int& model : division.model_of_part) model = std::max(model, 0);
   keep_particles_together(scene, division);
