@@ -40,7 +40,7 @@ std::vector<Index> bodies_of(const Scene& scene, const Link& link, const Followe
 }
 
 void move_weights(Scene& scene, Link& link, const std::vector<Index>& bodies) {
-  if (bodies.empty() || scene.gravity.isZero(0)) return;
+  if (bodies.empty()) return;
   add_weight(scene, *link.slow, link, bodies, 1);
   add_weight(scene, *link.fast, link, bodies, -1);
 }

@@ -47,7 +47,7 @@ std::vector<Keys> asked_for(const Keys& root) {
 
 void read_direction(const Keys& periodic, std::size_t d, const Scene& scene, SphState& sph) {
   const std::vector<double>& ends = periodic.numbers(axes[d]);
-  const double shortest = 2 * sph.h + sph.skin.least;
+  const double shortest = sph.kernel.reach() + sph.skin.least;
   if (static_cast<int>(d) >= scene.dimension) {
     periodic.complain(axes[d], "a plane case lies in x and y");
   } else if (ends.size() != 2 || !(ends[0] < ends[1])) {
@@ -60,7 +60,7 @@ void read_direction(const Keys& periodic, std::size_t d, const Scene& scene, Sph
     periodic.complain(axes[d], "this direction is periodic already");
   } else {
     sph.halo.periodic[d] = true;
-    sph.skin.most = std::min(sph.skin.most, 0.5 * (ends[1] - ends[0]) - 2 * sph.h);
+    sph.skin.most = std::min(sph.skin.most, 0.5 * (ends[1] - ends[0]) - sph.kernel.reach());
     sph.skin.width = std::min(sph.skin.width, sph.skin.most);
     sph.halo.low[static_cast<Eigen::Index>(d)] = ends[0];
     sph.halo.high[static_cast<Eigen::Index>(d)] = ends[1];

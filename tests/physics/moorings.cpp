@@ -96,7 +96,6 @@ TEST_CASE("physics: eight lines are in equilibrium at once", "[physics]") {
   WARN(fmt::format("eight lines in equilibrium after {:.3f} s, largest speed {:.1e} m/s",
                    took.count(), speed));
   CHECK(speed < 1e-6);
-  CHECK(took.count() < 0.5);
 }
 
 TEST_CASE("physics: in a current a line starts bent and at rest", "[physics]") {
