@@ -136,7 +136,7 @@ void check_ends(const Keys& root, const Scene& scene, const MooringLine& line) {
       if (!end.held || !tied) continue;
       complain_of(root, line,
                   fmt::format("its end '{0}' is held, and tied to '{1}': say free: [{0}]",
-                              e == 0 ? "from" : "to", group.name));
+                              e == 0 ? "to" : "from", group.name));
     }
   }
 }
