@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/error.hpp"
@@ -33,6 +34,14 @@ void run(std::span<Model* const> level, Stage stage) {
                               "positive, finite step",
                               model.step.t, model.step.n),
                   "look at the last frames near that place; refine, stiffen or damp there"});
+}
+
+/// The smallest whole number of substeps in the time that is left. That time is a difference of
+/// times, with their rounding: what it adds to a whole number asks for no substep more. (Late in a
+/// run it would cut the last substep of every coarse step in two, which is a resonance.)
+double substeps_for(double left, double allowed, double t) {
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(t) / allowed;
+  return std::ceil(left / allowed * (1 - 1e-9) - rounding);
 }
 
 void advance_time(std::span<Model* const> level) {
@@ -83,7 +92,7 @@ void choose_dt(std::span<Model* const> level) {
       model.substeps_left = 0;
     }
     const double left = model.target - model.step.t;
-    const double ratio = std::ceil(left / model.vote.dt * (1 - 1e-12));
+    const double ratio = substeps_for(left, model.vote.dt, model.step.t);
     if (ratio > 1e9) no_step(model);
     model.substeps_left = std::max({1, model.substeps_left, static_cast<int>(ratio)});
     model.step.dt = left / model.substeps_left;

@@ -64,6 +64,24 @@ TEST_CASE("clock: levels coincide bit for bit over many odd ratios", "[time]") {
   }
 }
 
+TEST_CASE("clock: the rounding of a late time asks for no substep more", "[time]") {
+  Models models;
+  std::vector<std::string> log;
+  double slow = 0.9;
+  double fast = 0.225;
+  for (const char* name : {"a", "b"}) models.list.emplace_back().name = name;
+  add_logged(models.list[0], &slow, &log);
+  add_logged(models.list[1], &fast, &log);
+  for (const double start : {1e3, 2.1e3, 1e6, 1e9}) {
+    for (Model& model : models.list) model.step.t = start;
+    for (int k = 0; k < 10; ++k) {
+      const auto before = models.list[1].step.n;
+      advance(models);
+      CHECK(models.list[1].step.n - before == 4);
+    }
+  }
+}
+
 TEST_CASE("clock: a step that collapses to nothing stops the run and names who", "[time]") {
   Models models;
   std::vector<std::string> log;
