@@ -2,6 +2,7 @@
 // accelerated by a feels -a.
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -14,8 +15,8 @@ namespace {
 /// The nodes of one part that move with one model, and where their work is written down.
 struct Share {
   int part = 0;
-  Range nodes;
-  bool mixed = false;  ///< particles of several parts lie in this range
+  std::vector<Range> nodes;
+  bool mixed = false;  ///< particles of several parts lie in these ranges
   LedgerEntry* work = nullptr;
 };
 
@@ -35,25 +36,37 @@ struct Momenta {
   Momenta operator+(const Momenta& other) const { return {of_v + other.of_v, of_a + other.of_a}; }
 };
 
-/// Work of the weight of a share along the path of level n: sum m g . work_path [J], with g taken
-/// out of the sum.
-Work work_of_weight(const Scene& scene, const Share& share, const Step& step) {
+Momenta momenta_of(const Scene& scene, const Share& share, const Range& computed) {
   const Nodes& nodes = scene.nodes;
-  const Range computed = scene.computed(share.nodes);
-  const auto sum = parallel_sum(computed.size(), node_chunk, Momenta{}, [&](Index a, Index b) {
-    Momenta part;
+  return parallel_sum(computed.size(), node_chunk, Momenta{}, [&](Index a, Index b) {
+    // Plain numbers stay in registers.
+    double vx = 0, vy = 0, vz = 0, ax = 0, ay = 0, az = 0;
     for (Index i = computed.begin + a; i < computed.begin + b; ++i) {
       if (share.mixed &&
           scene.particle_part[static_cast<std::size_t>(i - scene.particles.begin)] != share.part) {
         continue;
       }
       const auto k = static_cast<std::size_t>(i);
+      const Line& v = nodes.v[k];
+      const Line& f = nodes.f[k];
       const double m = nodes.x[k].w;
-      part.of_v += m * xyz(nodes.v[k]);
-      part.of_a += m * nodes.v[k].w * xyz(nodes.f[k]);
+      const double s = m * v.w;
+      vx += m * v.x;
+      vy += m * v.y;
+      vz += m * v.z;
+      ax += s * f.x;
+      ay += s * f.y;
+      az += s * f.z;
     }
-    return part;
+    return Momenta{{vx, vy, vz}, {ax, ay, az}};
   });
+}
+
+/// Work of the weight of a share along the path of level n: sum m g . work_path [J], with g taken
+/// out of the sum.
+Work work_of_weight(const Scene& scene, const Share& share, const Step& step) {
+  Momenta sum;
+  for (const Range& r : share.nodes) sum = sum + momenta_of(scene, share, scene.computed(r));
   const Vec3 old = sum.of_v - 0.5 * (step.dt_old + step.dt) * sum.of_a;
   return {0.5 * step.dt_old * scene.gravity.dot(old), 0.5 * step.dt * scene.gravity.dot(sum.of_v)};
 }
@@ -66,14 +79,20 @@ std::vector<Share> shares_of(const Scene& scene, const Model& model, Ledger& led
     const Part& part = scene.parts[p];
     // Particles are sorted among all particles, whatever their part.
     const Range all = part.is_particles() ? scene.particles : part.nodes;
+    Share share{.part = static_cast<int>(p), .mixed = part.is_particles() && n_particle_parts > 1};
+    Index n = 0;
     for (const Range& r : model.ranges) {
       const Range mine{std::max(r.begin, all.begin), std::min(r.end, all.end)};
-      if (mine.empty()) continue;
-      LedgerEntry& work = ledger.entry("gravity", part.name);
-      work.external = true;
-      shares.push_back(
-          {static_cast<int>(p), mine, part.is_particles() && n_particle_parts > 1, &work});
+      if (mine.begin >= mine.end) continue;
+      share.nodes.push_back(mine);
+      n += mine.size();
     }
+    if (share.nodes.empty()) continue;
+    // Work that is pending belongs to the steps of one model.
+    const bool whole = n == all.size();
+    share.work = &ledger.entry("gravity", whole ? part.name : part.name + " in " + model.name);
+    share.work->external = true;
+    shares.push_back(std::move(share));
   }
   return shares;
 }
