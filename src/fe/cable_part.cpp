@@ -146,6 +146,7 @@ bool read_cable(const Keys& root, const Keys& cable, TrussBlock& block) {
   block.damping_time = cable.number("damping_time");
   block.strength = cable.number_or("strength", 0);
   block.dt_factor = cable.number("dt_factor");
+  if (block.EA > 0) return true;
   return read_stiffness(root, cable, block);
 }
 

@@ -18,8 +18,8 @@ namespace gannet {
 std::vector<Key> cable_keys();
 
 /// What `cable` says of its elements: stiffness, mass per length, damping, strength. root: for the
-/// material that it may name. Complains and returns false where stiffness or mass are not said
-/// once.
+/// material that it may name. A block that has its stiffness and mass already keeps them. Complains
+/// and returns false where they are not said once.
 bool read_cable(const Keys& root, const Keys& cable, TrussBlock& block);
 
 /// Tracks what a pass takes from the level before; the force is also shown. owner: the effect.

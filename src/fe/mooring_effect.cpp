@@ -10,6 +10,7 @@
 #include "fe/element_part.hpp"
 #include "fe/mooring_keys.hpp"
 #include "fe/mooring_start.hpp"
+#include "fe/mooring_types.hpp"
 #include "scene/tracked_values.hpp"
 
 namespace gannet {
@@ -260,10 +261,28 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+/// What follows from the type and size of a line.
+void add_choices_of_type(const Keys& keys, const MooringLine& line, std::vector<Choice>& list) {
+  const MooringType* type = type_of_line(keys);
+  if (type == nullptr) return;
+  const double d = keys.number("nominal");
+  const std::string rule = fmt::format("{} of {:g} mm, which breaks at {:.4g} N at least",
+                                       type->name, 1e3 * d, breaking_load(*type, d));
+  const auto add = [&](const char* key, double value, const char* unit) {
+    list.push_back({keys.path() + "." + key, fmt::format("{:.4g} {}", value, unit), rule});
+  };
+  add("EA", line.block.EA, "N");
+  add("mass_per_length", line.block.mu, "kg/m");
+  add("diameter", line.diameter, "m");
+}
+
 std::vector<Choice> choices(const Keys& root, Scene& scene) {
   std::vector<Choice> list;
   if (!scene.store.has<MooringLines>()) return list;
   for (const MooringLine& line : scene.store.get<MooringLines>().list) {
+    if (root.map("moorings").has(line.name)) {
+      add_choices_of_type(root.map("moorings").map(line.name), line, list);
+    }
     if (!line.bed.there || !root.map("moorings").has(line.name)) continue;
     const Keys bed = root.map("moorings").map(line.name).map("bed");
     if (!bed.given("stiffness")) {

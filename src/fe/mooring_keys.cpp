@@ -11,6 +11,7 @@
 
 #include "fe/cable_part.hpp"
 #include "fe/moordyn_file.hpp"
+#include "fe/mooring_types.hpp"
 #include "material/elastic_plastic.hpp"
 
 namespace gannet {
@@ -100,6 +101,7 @@ bool read_water(const Keys& keys, MooringLine& line) {
                 .Can = water.number("Can"),
                 .Cat = water.number("Cat"),
                 .flows = water.has("current")};
+  read_coefficients_of_type(keys, line.water);
   if (line.water.flows) line.water.current = water.vector_function("current");
   return true;
 }
@@ -132,7 +134,7 @@ bool read_mooring(const Keys& root, const Keys& keys, MooringLine& line) {
   line.n = keys.integer("elements");
   line.block.unstretched = line.length / line.n;
   line.material = keys.word("material");
-  if (!read_cable(root, keys, line.block)) return false;
+  if (!read_mooring_type(keys, line) || !read_cable(root, keys, line.block)) return false;
   if (!read_ends(keys, line) || !read_water(keys, line)) return false;
   read_bed(keys, line, -gravity_of(root).z());
   return true;
@@ -188,6 +190,8 @@ Schema mooring_schema() {
        .text = "number of elements, all of one length",
        .fallback = "80",
        .limits = between(2, 1e7)});
+  key(mooring_type_key());
+  key(nominal_key());
   key({.name = "diameter",
        .unit = dim::length,
        .text = "of a cylinder that displaces as much water; of the 'area' unless said",

@@ -195,3 +195,19 @@ TEST_CASE("physics: chains under heave pull as in OrcaFlex", "[physics]") {
     CHECK(c.rms < 0.03);
   }
 }
+
+TEST_CASE("moorings: a line of a type has the properties of its size", "[physics]") {
+  const auto s = make_simulation_of_text(R"case(gannet: 1
+moorings:
+  line: {from: [0, 0, 0], to: [700 m, 0, -200 m], length: 750 m, elements: 20, type: chain, nominal: 84 mm, water: {Can: 0.9}, bed: {}}
+loads: {gravity: [0, 0, -9.81 m/s^2]}
+output: {until: 1 s}
+)case");
+  const MooringLine& line = s->scene.store.get<MooringLines>().list.front();
+  CHECK(line.block.mu == Approx(20e3 * 0.084 * 0.084));
+  CHECK(line.block.EA == Approx(85.6e9 * 0.084 * 0.084 - 3.93e7 * std::pow(0.084, 3)));
+  CHECK(line.diameter == Approx(1.8 * 0.084));
+  CHECK(line.water.Cdn == 1.333);
+  CHECK(line.water.Can == 0.9);  // said by the case
+  CHECK(line.water.Cat == 0.5);
+}
