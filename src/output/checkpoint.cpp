@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "output/checkpoint_head.hpp"
+#include "output/checkpoint_models.hpp"
 #include "output/files.hpp"
 #include "output/folder.hpp"
 #include "output/hdf5_file.hpp"
@@ -85,7 +86,7 @@ CheckpointHead head_of(const Scene& scene, const Models& models, const RunRecord
     head.lists.push_back({l.name, static_cast<std::int64_t>(l.list->size())});
   }
   for (const Model& m : models.list) {
-    head.models.push_back({m.name, m.step, m.vote, m.target, m.substeps_left});
+    head.models.push_back({m.name, m.step, m.vote, m.target, m.substeps_left, m.ranges});
   }
   for (const LedgerEntry& e : models.ledger.entries()) head.ledger.push_back(e);
   head.last_look = record.output.last_look;
@@ -175,15 +176,19 @@ void check_shapes(const Reading& r, const Scene& scene, const Models& models) {
     misfit(r,
            fmt::format("it has {} nodes, the case makes {}", r.head.n_owned, scene.nodes.n_owned));
   }
+  const bool models_fit = same_models(r.head, models);
   auto stored = by_key(r.head);
   for (const Field& f : scene.fields) {
     const std::string key = key_of(shape_of(scene, f));
     const auto it = stored.find(key);
-    if (f.checkpoint) check_field(r, scene, f, it == stored.end() ? nullptr : it->second);
+    const bool may_lack = !models_fit && is_of_link(f.name) && it == stored.end();
+    if (f.checkpoint && !may_lack) {
+      check_field(r, scene, f, it == stored.end() ? nullptr : it->second);
+    }
     stored[key] = nullptr;
   }
   for (const auto& [key, shape] : stored) {
-    if (shape != nullptr && shape->stored) {
+    if (shape != nullptr && shape->stored && (models_fit || !is_of_link(shape->name))) {
       misfit(r, fmt::format("it has a field {} that the case does not make", title_of(*shape)));
     }
   }
@@ -192,11 +197,10 @@ void check_shapes(const Reading& r, const Scene& scene, const Models& models) {
     lists_fit = r.head.lists[k].name == scene.index_lists[k].name;
   }
   if (!lists_fit) misfit(r, "it has other lists of particles");
-  bool models_fit = r.head.models.size() == models.list.size();
-  for (std::size_t k = 0; models_fit && k < r.head.models.size(); ++k) {
-    models_fit = r.head.models[k].name == models.list[k].name;
-  }
-  if (!models_fit) misfit(r, "it has other models");
+  if (models_fit) return;
+  const std::string trouble = trouble_with_models(r.head, scene);
+  if (!trouble.empty()) misfit(r, "it has other models, and " + trouble);
+  mismatch(r, "the checkpoint has other models than the case");
 }
 
 void read_fields(const Hdf5Reader& file, const CheckpointHead& head, Scene& scene) {
@@ -221,7 +225,9 @@ void read_fields(const Hdf5Reader& file, const CheckpointHead& head, Scene& scen
   }
 }
 
-void take_models(const CheckpointHead& head, Models& models) {
+void take_models(const CheckpointHead& head, Scene& scene, Models& models) {
+  for (const LedgerEntry& e : head.ledger) models.ledger.entry(e.name, e.part) = e;
+  if (!same_models(head, models)) return take_other_models(head, scene, models);
   for (std::size_t k = 0; k < head.models.size(); ++k) {
     Model& m = models.list[k];
     m.step = head.models[k].step;
@@ -229,7 +235,6 @@ void take_models(const CheckpointHead& head, Models& models) {
     m.target = head.models[k].target;
     m.substeps_left = head.models[k].substeps_left;
   }
-  for (const LedgerEntry& e : head.ledger) models.ledger.entry(e.name, e.part) = e;
 }
 
 [[noreturn]] void damaged(const std::string& path, const std::string& why) {
@@ -316,7 +321,7 @@ std::vector<std::string> read_checkpoint(const std::string& path, Scene& scene, 
     check_shapes(reading, scene, models);
     scene.nodes.n_ghosts = head.n_ghosts;
     read_fields(file, head, scene);
-    take_models(head, models);
+    take_models(head, scene, models);
     record.output.last_look = head.last_look;
     record.output.frames = head.frames;
     record.output.finished = head.last_look >= record.plan.until;

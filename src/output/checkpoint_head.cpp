@@ -32,7 +32,10 @@ CheckpointHead::FieldShape field_from(const Json& j) {
 }
 
 Json to_json(const CheckpointHead::ModelState& m) {
+  Json ranges = Json::array();
+  for (const Range& r : m.ranges) ranges.push_back({r.begin, r.end});
   return {{"name", m.name},
+          {"nodes", ranges},
           {"n", m.step.n},
           {"t", exact(m.step.t)},
           {"dt_old", exact(m.step.dt_old)},
@@ -55,6 +58,9 @@ CheckpointHead::ModelState model_from(const Json& j) {
   m.vote = {number(j.at("vote")), j.at("who")};
   m.target = number(j.at("target"));
   m.substeps_left = j.at("substeps_left");
+  // Not there in files of older programs.
+  if (!j.contains("nodes")) return m;
+  for (const Json& r : j.at("nodes")) m.ranges.push_back({r.at(0), r.at(1)});
   return m;
 }
 

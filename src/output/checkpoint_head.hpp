@@ -52,6 +52,7 @@ struct CheckpointHead {
     Vote vote;
     double target = 0;
     int substeps_left = 0;
+    std::vector<Range> ranges{};  ///< of the node table
   };
   std::vector<ModelState> models;
   std::vector<LedgerEntry> ledger;

@@ -1,0 +1,85 @@
+#include "output/checkpoint_models.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/link.hpp"
+
+namespace gannet {
+
+bool same_models(const CheckpointHead& head, const Models& models) {
+  return std::ranges::equal(head.models, models.list, {}, &CheckpointHead::ModelState::name,
+                            &Model::name);
+}
+
+bool is_of_link(const std::string& field) {
+  return field.starts_with("link.") || field.find(".linked_") != std::string::npos;
+}
+
+std::string trouble_with_models(const CheckpointHead& head, const Scene& scene) {
+  for (std::size_t k = 0; k + 1 < head.models.size(); ++k) {
+    if (head.models[k].ranges.empty()) return "it does not say which nodes its models had";
+    for (const Part& part : scene.parts) {
+      if (part.is_particles() || part.rigid || part.cell == Cell::point) continue;
+      for (const Range& r : head.models[k].ranges) {
+        if (!r.contains(part.nodes.begin)) continue;
+        return fmt::format(
+            "part '{}' was in its model '{}', whose step was longer than that of "
+            "others",
+            part.name, head.models[k].name);
+      }
+    }
+  }
+  return "";
+}
+
+namespace {
+
+/// v(n - dT/2) of the nodes of a model goes to n - dt/2.
+void shift_velocities(const CheckpointHead::ModelState& model, double dt, Nodes& nodes) {
+  const double shift = 0.5 * (model.step.dt_old - dt);
+  if (shift == 0) return;
+  for (const Range& r : model.ranges) {
+    for (Index i = r.begin; i < r.end; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      add_xyz(nodes.v[k], shift * nodes.v[k].w * xyz(nodes.f[k]));
+    }
+  }
+}
+
+/// Where the nodes of a link were a step before.
+void begin_path(const Link& link, double dt, Scene& scene) {
+  const std::string name = "link." + link.name + ".x_level";
+  const auto field = std::ranges::find(scene.fields, name, &Field::name);
+  if (field == scene.fields.end()) return;
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const auto i = static_cast<std::size_t>(link.nodes[k]);
+    const Vec3 x = xyz(scene.nodes.x[i]) - dt * xyz(scene.nodes.v[i]);
+    for (int d = 0; d < 3; ++d) {
+      *reinterpret_cast<double*>(field->at(static_cast<Index>(k), d)) = x[d];
+    }
+  }
+}
+
+}  // namespace
+
+void take_other_models(const CheckpointHead& head, Scene& scene, Models& models) {
+  const CheckpointHead::ModelState& fast = head.models.back();
+  const double dt = fast.step.dt_old;
+  for (const auto& model : head.models) shift_velocities(model, dt, scene.nodes);
+  for (std::size_t k = 0; k < models.list.size(); ++k) {
+    Model& m = models.list[k];
+    const CheckpointHead::ModelState& like = k == 0 ? head.models.front() : fast;
+    m.step = like.step;
+    m.step.dt_old = dt;
+    m.vote = like.vote;
+    m.target = like.step.t;
+    m.substeps_left = 0;
+  }
+  if (const Links* links = scene.store.find<Links>()) {
+    for (const Link* link : links->list) begin_path(*link, dt, scene);
+  }
+}
+
+}  // namespace gannet
