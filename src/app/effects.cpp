@@ -35,6 +35,7 @@ std::vector<Effect> make_table() {
   return {
       leapfrog_effect(),    // first: clears forces, kicks and drifts
       models_effect(),      //
+      tie_places_effect(),  // nodes are where they are tied before elements take their shape
       gravity_effect(),     // says what gravity is before others ask the scene
       sponge_effect(),      // after the free kick, before motions that are given
       relaxation_effect(),  // likewise
@@ -75,6 +76,7 @@ std::vector<Effect> make_table() {
       periodic_effect(),           // copies out what moved, adds back what ghosts collected
       mirror_walls_effect(),       // images at walls; adds to what planes measure
       prescribed_motion_effect(),  // after all forces: measures the reactions
+      tie_motion_effect(),         // of what is tied, after what it is tied to
       probes_effect(),             //
       wall_force_effect(),
       flow_probes_effect(),

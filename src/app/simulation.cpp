@@ -1,5 +1,6 @@
 #include "app/simulation.hpp"
 
+#include "app/auto_models.hpp"
 #include "app/effects.hpp"
 #include "scene/draft.hpp"
 
@@ -44,10 +45,11 @@ void build_for(Simulation& simulation, std::size_t k, F&& part) {
   sign(simulation, memory.effect);
 }
 
-/// Builds scene and plans of a case that was read.
-std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
+/// Builds scene and plans of a case that was read, divided among models as chosen.
+std::unique_ptr<Simulation> build_divided(std::unique_ptr<Case> read, const ChosenModels& chosen) {
   auto simulation = std::make_unique<Simulation>();
   simulation->source = std::move(read);
+  simulation->scene.store.get<ChosenModels>() = chosen;
   Case& source = *simulation->source;
   const Keys root = source.keys();
   Scene& scene = simulation->scene;
@@ -78,6 +80,15 @@ std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
   }
   source.mistakes.throw_if_any();
   return simulation;
+}
+
+/// Builds a case; one that leaves its models to the program twice, the first time to see what steps
+/// its parts allow.
+std::unique_ptr<Simulation> build(std::unique_ptr<Case> read) {
+  auto simulation = build_divided(std::move(read), {});
+  if (!wants_auto_models(simulation->source->keys())) return simulation;
+  const ChosenModels chosen = choose_models(*simulation);
+  return build_divided(std::move(simulation->source), chosen);
 }
 
 }  // namespace

@@ -166,11 +166,12 @@ void check_masses(const Keys& root, const PrescribedMotion& motion, const Nodes&
     if (moved && turned) continue;
     root.map("boundaries")
         .map(motion.name)
-        .complain("nodes",
-                  followers.leader_of(motion.nodes[k]) >= 0
-                      ? "a node of the set belongs to a rigid body and cannot be moved by itself; "
-                        "say it under `motion` of the body"
-                      : "a node of the set has no mass of its own and cannot be moved by itself");
+        .complain(
+            "nodes",
+            followers.leader_of(motion.nodes[k]) >= 0
+                ? "a node of the set follows a rigid body or what it is tied to, and cannot be "
+                  "moved by itself; say how that moves"
+                : "a node of the set has no mass of its own and cannot be moved by itself");
     return;
   }
 }

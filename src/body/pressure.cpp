@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "plan/effect.hpp"
+#include "plan/model_of_part.hpp"
 #include "scene/surface_data.hpp"
 
 namespace gannet {
@@ -126,7 +127,7 @@ void add_pressure_load(PressureLoad& load, Scene& scene, Models& models) {
   const auto& surfaces = scene.store.get<SurfaceData>().of_part;
   const auto number = static_cast<std::size_t>(load.part);
   if (number < surfaces.size()) load.gone = surfaces[number].gone;
-  Model& model = models.of_part(scene, load.part);
+  Model& model = model_of_part(scene, models, load.part);
   LedgerEntry& work = models.ledger.entry("pressure load", load.name);
   work.external = true;
   model.plan.add({.name = "pressure " + load.name,

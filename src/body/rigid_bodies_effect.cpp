@@ -12,6 +12,8 @@
 #include "body/effects.hpp"
 #include "body/rigid_body.hpp"
 #include "body/rigid_measures.hpp"
+#include "plan/link.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -238,7 +240,7 @@ void make_body(const Keys& keys, Scene& scene, NamedBody& body) {
 bool in_one_model(const Keys& keys, const Scene& scene, Models& models, const NamedBody& body) {
   const Model* model = &models.of_node(body.body->node);
   for (const int p : body.parts) {
-    if (&models.of_part(scene, p) == model) continue;
+    if (&model_of_part(scene, models, p) == model) continue;
     keys.complain("parts", fmt::format("part '{}' advances in another model than the body",
                                        scene.parts[static_cast<std::size_t>(p)].name));
     return false;
@@ -274,7 +276,9 @@ void note_forces(Scene& scene, Model& model, PartGroup& group, const Keys& keys)
                   .run = [&scene, &group](const Step&) {
                     for (std::size_t k = 0; k < group.nodes.size(); ++k) {
                       const auto i = static_cast<std::size_t>(group.nodes[k]);
-                      group.forces[k] = xyz(scene.nodes.f[i]) + group.masses[k] * scene.gravity;
+                      group.forces[k] = xyz(scene.nodes.f[i]) -
+                                        excess_on_node(scene, group.nodes[k]) +
+                                        group.masses[k] * scene.gravity;
                     }
                   }});
 }

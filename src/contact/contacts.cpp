@@ -11,6 +11,7 @@
 #include "contact/node_to_segment.hpp"
 #include "contact/part_kinds.hpp"
 #include "contact/planes.hpp"
+#include "plan/model_of_part.hpp"
 #include "scene/particle_material.hpp"
 #include "scene/surface_data.hpp"
 
@@ -240,7 +241,7 @@ void add_nodes_on_planes(const Keys& keys, NodesOnPlanes& c, Scene& scene, Model
       if (scene.planes[k].name == plane.name) c.numbers.push_back(k);
     }
   }
-  Model& model = models.of_part(scene, c.part);
+  Model& model = model_of_part(scene, models, c.part);
   Operation op;
   op.name = "contact " + c.name;
   op.reason = asked_for_at(c.where);
@@ -275,7 +276,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     const Keys keys = contacts.map(c.name);
     set_law(scene, keys, c);
     const Model& water = models.of_node(scene.particles.begin);
-    const Model& surface = models.of_part(scene, c.surface_part);
+    const Model& surface = model_of_part(scene, models, c.surface_part);
     if (models.rank(surface) < models.rank(water)) {
       keys.complain("between",
                     fmt::format("the surface advances in model '{}', slower than that of the "

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "contact/linked_weight.hpp"
 #include "plan/effect.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -253,7 +254,7 @@ void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first)
 
 void add_node_to_segment(Scene& scene, NodeToSegment& c, Models& models) {
   Model& model = models.of_node(scene.particles.begin);
-  Model& of_surface = models.of_part(scene, c.surface_part);
+  Model& of_surface = model_of_part(scene, models, c.surface_part);
   if (&of_surface != &model) {
     c.link.name = "contact " + c.name;
     c.link.slow = &model;

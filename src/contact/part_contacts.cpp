@@ -8,6 +8,7 @@
 #include "contact/effects.hpp"
 #include "contact/part_contact.hpp"
 #include "contact/part_kinds.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -103,8 +104,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<PartContacts>()) return;
   for (PartContact& c : scene.store.get<PartContacts>().list) {
     const Keys keys = root.map("contacts").map(c.name);
-    Model& model = models.of_part(scene, c.sides[0].part);
-    if (&model != &models.of_part(scene, c.sides[1].part)) {
+    Model& model = model_of_part(scene, models, c.sides[0].part);
+    if (&model != &model_of_part(scene, models, c.sides[1].part)) {
       keys.complain("between",
                     "the two parts advance in different models, with steps of their own; contact "
                     "of elements across models is not built yet");

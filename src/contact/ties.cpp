@@ -22,9 +22,20 @@ Schema schema() {
           {"ties.*",
            {.name = "to",
             .kind = Kind::reference,
-            .text = "the rigid body that they hang on",
+            .text = "the rigid body that they hang on, or the part of elements",
             .required = true,
-            .refers_to = "bodies"}}};
+            .refers_to = "bodies or parts or moorings"}},
+          {"ties.*",
+           {.name = "within",
+            .unit = dim::length,
+            .text = "how far from a part nodes may be, onto which they are moved; by default a "
+                    "tenth of the segment there",
+            .limits = positive()}},
+          {"ties.*",
+           {.name = "breaks_at",
+            .unit = dim::force,
+            .text = "size of the force at which the tie lets go",
+            .limits = positive()}}};
 }
 
 const Part& part_of(const Scene& scene, Index node) {
@@ -74,6 +85,12 @@ void make_tie(const Keys& keys, Scene& scene) {
   PartGroup* group = scene.group(keys.word("to"));
   const std::vector<Index> nodes = select_nodes(keys.map("nodes"), scene);
   if (group == nullptr || nodes.empty()) return;
+  for (const char* key : {"within", "breaks_at"}) {
+    if (!keys.has(key)) continue;
+    return keys.complain(key,
+                         "has no meaning where nodes are tied to a rigid body, which takes "
+                         "them over for good");
+  }
   for (const Index node : nodes) {
     const std::string trouble = trouble_with(scene, *group, node);
     if (!trouble.empty()) return keys.complain("nodes", trouble);
@@ -91,7 +108,9 @@ void make_tie(const Keys& keys, Scene& scene) {
 void state(const Keys& root, Scene& scene) {
   if (!root.has("ties")) return;
   const Keys ties = root.map("ties");
-  for (const std::string& name : ties.names()) make_tie(ties.map(name), scene);
+  for (const std::string& name : ties.names()) {
+    if (scene.group(ties.map(name).word("to")) != nullptr) make_tie(ties.map(name), scene);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "base/math.hpp"
 #include "material/elastic_plastic.hpp"
 #include "mesh/mesh_keys.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -178,7 +179,7 @@ void add_element_operation(const Keys& root, Scene& scene, Models& models, Eleme
       return votes;
     };
   }
-  models.of_part(scene, number).plan.add(std::move(operation));
+  model_of_part(scene, models, number).plan.add(std::move(operation));
 }
 
 }  // namespace gannet

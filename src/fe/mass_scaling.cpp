@@ -12,6 +12,7 @@
 #include "fe/effects.hpp"
 #include "fe/element_blocks.hpp"
 #include "fe/element_part.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -197,7 +198,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     const std::string& name = scene.parts[static_cast<std::size_t>(made.part)].name;
     LedgerEntry& entry = models.ledger.entry("mass_scaling", name);
     entry.within_other = true;  // the nodes' kinetic energy has it
-    models.of_part(scene, made.part)
+    model_of_part(scene, models, made.part)
         .plan.add({.name = "kinetic energy of mass added to " + name,
                    .reason = asked_for_at(root.map("parts").map(name).where("mass_scaling")),
                    .stage = Stage::look,

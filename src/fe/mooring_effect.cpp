@@ -11,6 +11,8 @@
 #include "fe/mooring_keys.hpp"
 #include "fe/mooring_start.hpp"
 #include "fe/mooring_types.hpp"
+#include "plan/model_of_part.hpp"
+#include "scene/bonds.hpp"
 #include "scene/tracked_values.hpp"
 
 namespace gannet {
@@ -139,6 +141,14 @@ void check_ends(const Keys& root, const Scene& scene, const MooringLine& line) {
                   fmt::format("its end '{0}' is held, and tied to '{1}': say free: [{0}]",
                               e == 0 ? "to" : "from", group.name));
     }
+    const Bonds* bonds = scene.store.find<Bonds>();
+    if (bonds == nullptr) continue;
+    for (const Bond& bond : bonds->list) {
+      if (!end.held || std::ranges::find(bond.nodes, end.node) == bond.nodes.end()) continue;
+      complain_of(root, line,
+                  fmt::format("its end '{0}' is held, and tied by '{1}': say free: [{0}]",
+                              e == 0 ? "to" : "from", bond.name));
+    }
   }
 }
 
@@ -224,7 +234,7 @@ void look(MooringLine& line, Scene& scene, const Step& step, const Entries& to) 
 
 void add_line(const Keys& root, Scene& scene, Models& models, MooringLine& line) {
   const std::string reason = asked_for_at(line.where);
-  Model& model = models.of_part(scene, line.block.part);
+  Model& model = model_of_part(scene, models, line.block.part);
   add_cable_operation(root, scene, models, line.block, reason);
   const Entries entries = entries_of(models.ledger, line);
   model.plan.add(

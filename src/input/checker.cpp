@@ -160,6 +160,11 @@ Value check_map(const TextNode& node, const Key& key, const std::string& path,
                 CheckContext& context) {
   if (is_switch(node, key)) return check_map(map_of_switch(node), key, path, context);
   Value value = start_value(node, key, path);
+  if (node.form == TextNode::Form::scalar &&
+      std::find(key.choices.begin(), key.choices.end(), node.text) != key.choices.end()) {
+    value.words = {node.text};
+    return value;
+  }
   if (node.form == TextNode::Form::scalar || node.form == TextNode::Form::list) {
     const std::string found = node.form == TextNode::Form::list
                                   ? "a list stands here"

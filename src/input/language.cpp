@@ -241,7 +241,7 @@ std::string wanted_text(const Key& key) {
     case Kind::reference:
       return fmt::format("a name under '{}' is wanted", key.refers_to);
     case Kind::map:
-      return wanted_map(key);
+      return wanted_map(key) + or_words;
     case Kind::any:
       break;
   }

@@ -8,6 +8,7 @@
 
 #include "output/files.hpp"
 #include "output/vtk_frame.hpp"
+#include "plan/model_of_part.hpp"
 
 namespace gannet {
 
@@ -90,7 +91,7 @@ void write_frame(const Scene& scene, Models& models, RunRecord& record) {
     const std::string path =
         fmt::format("vtk/{}_{:06}.{}", file_stem(scene, p), number, vtk_extension(part));
     const std::string whole = record.folder + "/" + path;
-    write_vtk(scene, k, models.of_part(scene, k).step, whole);
+    write_vtk(scene, k, model_of_part(scene, models, k).step, whole);
     record.output.not_on_disk.push_back(whole);
     frame.files.push_back({part.name, path});
   }

@@ -1,10 +1,53 @@
 #include "plan/link.hpp"
 
+#include <algorithm>
+
 namespace gannet {
 
 namespace {
 
 bool same_level(const Link& link) { return link.slow->step.t == link.fast->step.t; }
+
+/// Gives the nodes their mean velocities over the slow model's last step.
+void lend_mean_velocities(Nodes& nodes, Link& link) {
+  const double dT = link.slow->step.dt_old;
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    link.v_kept[k] = nodes.v[i];
+    if (dT > 0) set_xyz(nodes.v[i], (xyz(nodes.x[i]) - xyz(link.x_level[k])) / dT);
+    if (!nodes.rotating.contains(i)) continue;
+    link.omega_kept[k] = nodes.omega[i];
+    if (dT > 0) set_xyz(nodes.omega[i], xyz(link.turned[k]) / dT);
+  }
+}
+
+void give_velocities_back(Nodes& nodes, const Link& link) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    set_xyz(nodes.v[i], xyz(link.v_kept[k]));
+    if (nodes.rotating.contains(i)) set_xyz(nodes.omega[i], xyz(link.omega_kept[k]));
+  }
+}
+
+void add_turns(const Nodes& nodes, Link& link) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    if (nodes.rotating.contains(i)) {
+      add_xyz(link.turned[k], link.fast->step.dt * xyz(nodes.omega[i]));
+    }
+  }
+}
+
+/// Adds the work of the moments along the turns since the last level.
+void collect_turns(const Nodes& nodes, Link& link, LedgerEntry& entry) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    if (!nodes.rotating.contains(link.nodes[k])) continue;
+    const Vec3 mean = 0.5 * (xyz(link.moment[k]) + xyz(link.moment_level[k]));
+    if (link.slow->step.dt_old > 0) entry.value += mean.dot(xyz(link.turned[k]));
+    set_xyz(link.moment_level[k], xyz(link.moment[k]));
+    set_xyz(link.turned[k], Vec3::Zero());
+  }
+}
 
 void clear_nodes(Nodes& nodes, const Link& link) {
   for (const Index i : link.nodes) {
@@ -31,6 +74,9 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
     set_xyz(link.f_level[k], f);
   }
   clear_nodes(nodes, link);
+  if (!link.of_elements) return;
+  collect_turns(nodes, link, entry);
+  give_velocities_back(nodes, link);
 }
 
 void apply(Nodes& nodes, Link& link) {
@@ -55,6 +101,10 @@ void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const Vec3 v = velocity_at_level(nodes, link.nodes[k], link.fast->step.dt);
     work += xyz(link.force[k]).dot(v);
+    if (!link.of_elements || !nodes.rotating.contains(link.nodes[k])) continue;
+    const auto i = static_cast<std::size_t>(link.nodes[k]);
+    const double half = 0.5 * link.fast->step.dt * nodes.omega[i].w;
+    work += xyz(link.moment[k]).dot(xyz(nodes.omega[i]) - half * xyz(nodes.torque[i]));
   }
   entry.add_work(-0.5 * work * Work(slow.dt_old, slow.dt));
 }
@@ -80,6 +130,19 @@ Excess excess_of_impulses(const Scene& scene, const Vec3& about,
   return excess;
 }
 
+Vec3 excess_on_node(const Scene& scene, Index node) {
+  Vec3 excess = Vec3::Zero();
+  const Links* links = scene.store.find<Links>();
+  if (links == nullptr) return excess;
+  for (const Link* link : links->list) {
+    const auto found = std::lower_bound(link->nodes.begin(), link->nodes.end(), node);
+    if (found == link->nodes.end() || *found != node) continue;
+    excess +=
+        (link->ratio - 1) * xyz(link->force[static_cast<std::size_t>(found - link->nodes.begin())]);
+  }
+  return excess;
+}
+
 void open_link(Scene& scene, Link& link) {
   scene.store.get<Links>().list.push_back(&link);
   const std::size_t n = link.nodes.size();
@@ -96,11 +159,26 @@ void open_link(Scene& scene, Link& link) {
   };
   track("x_level", "m", link.x_level);
   track("f_level", "N", link.f_level);
+  if (link.of_elements) {
+    for (Array<Line>* lines : {&link.moment_level, &link.turned, &link.v_kept, &link.omega_kept}) {
+      lines->assign(n, {});
+    }
+    track("moment_level", "N m", link.moment_level);
+    track("turned", "rad", link.turned);
+    link.fast->plan.add({.name = "turns of link " + link.name,
+                         .reason = "elements of model " + link.slow->name + " turn with its nodes",
+                         .stage = Stage::drift,
+                         .reads = {"omega"},
+                         .run = [&scene, &link](const Step&) { add_turns(scene.nodes, link); }});
+  }
   link.slow->plan.add({.name = "clear link " + link.name,
                        .reason = "the nodes belong to model " + link.fast->name,
                        .stage = Stage::force,
                        .writes = {"f"},
-                       .run = [&scene, &link](const Step&) { clear_nodes(scene.nodes, link); }});
+                       .run = [&scene, &link](const Step&) {
+                         clear_nodes(scene.nodes, link);
+                         if (link.of_elements) lend_mean_velocities(scene.nodes, link);
+                       }});
 }
 
 void close_link(Scene& scene, Link& link, Ledger& ledger) {

@@ -28,6 +28,13 @@ struct Link {
   double ratio =
       0;  ///< what `force` was multiplied by in this step of the fast model; 0: not applied
   Array<Line> path;  ///< displacement from the last level to this one, in the slow model's step [m]
+  /// The nodes belong to elements of the slow model, which take strains from velocities: while its
+  /// forces are computed the nodes have their mean velocities over its last step.
+  bool of_elements = false;
+  Array<Line> moment_level;  ///< slow moment at the last level [N m]
+  Array<Line> turned;        ///< sum of omega dt since then [rad]
+  Array<Line> v_kept;        ///< the nodes' own velocities meanwhile [m/s]
+  Array<Line> omega_kept;    ///< [rad/s]
 };
 
 /// All links of a scene, as they were opened: scene.store.get<Links>().
@@ -45,6 +52,10 @@ struct Excess {
 };
 Excess excess_of_impulses(const Scene& scene, const Vec3& about,
                           const std::function<bool(Index)>& counts);
+
+/// The same on one node [N]: off its f, it leaves the force that acts at this level, also between
+/// the levels of the slow model. Needs the nodes of each link in rising order.
+Vec3 excess_on_node(const Scene& scene, Index node);
 
 /// Opens the link: in the slow model's force stage, clears the forces of the linked nodes. Call it
 /// before the operations of the slow model that push them are added.

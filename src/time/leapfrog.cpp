@@ -86,31 +86,52 @@ double kinetic_of_particles(const Scene& scene, int part, double dt) {
   });
 }
 
-void add_kinetic_energy(Scene& scene, Model& model, Ledger& ledger) {
-  struct Share {
-    int part;
-    LedgerEntry* entry;
-  };
-  std::vector<Share> shares;
+/// The nodes of a part that advance in one model. What else the part has advances in another
+/// model, and has an entry there.
+struct KineticShare {
+  int part = -1;
+  std::vector<Range> nodes;
+  LedgerEntry* entry = nullptr;
+};
+
+std::vector<KineticShare> kinetic_shares(const Scene& scene, const Model& model, Ledger& ledger) {
+  std::vector<KineticShare> shares;
   for (std::size_t k = 0; k < scene.parts.size(); ++k) {
     const Part& part = scene.parts[k];
+    KineticShare share{.part = static_cast<int>(k)};
+    Index n = 0;
     for (const Range& r : model.ranges) {
-      if (part.nodes.empty() || !r.contains(part.nodes.begin)) continue;
-      shares.push_back({static_cast<int>(k), &ledger.entry("kinetic", part.name)});
+      const Range both{std::max(r.begin, part.nodes.begin), std::min(r.end, part.nodes.end)};
+      if (both.begin >= both.end) continue;
+      share.nodes.push_back(both);
+      n += both.size();
     }
+    if (share.nodes.empty()) continue;
+    const bool whole = n == part.nodes.size();
+    share.entry = &ledger.entry("kinetic", whole ? part.name : part.name + " in " + model.name);
+    shares.push_back(std::move(share));
   }
+  return shares;
+}
+
+void add_kinetic_energy(Scene& scene, Model& model, Ledger& ledger) {
   model.plan.add({.name = "kinetic energy",
                   .reason = "always there: the energy ledger",
                   .stage = Stage::look,
                   .reads = {"v", "f", "m"},
-                  .run = [&scene, shares](const Step& s) {
+                  .run = [&scene, shares = kinetic_shares(scene, model, ledger)](const Step& step) {
                     const bool several = scene.particles.size() > 0 && scene.parts.size() > 1;
-                    for (const Share& share : shares) {
+                    for (const KineticShare& share : shares) {
                       const Part& part = scene.parts[static_cast<std::size_t>(share.part)];
-                      share.entry->value =
-                          part.is_particles() && several
-                              ? kinetic_of_particles(scene, share.part, s.dt)
-                              : kinetic_of_range(scene.nodes, scene.computed(part.nodes), s.dt);
+                      double value = 0;
+                      if (part.is_particles() && several) {
+                        value = kinetic_of_particles(scene, share.part, step.dt);
+                      } else {
+                        for (const Range& r : share.nodes) {
+                          value += kinetic_of_range(scene.nodes, scene.computed(r), step.dt);
+                        }
+                      }
+                      share.entry->value = value;
                     }
                   }});
 }

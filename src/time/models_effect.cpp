@@ -9,12 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "scene/bonds.hpp"
+
 namespace gannet {
 
 namespace {
 
 Schema schema() {
-  return {{"models.*",
+  return {{"",
+           {.name = "models",
+            .kind = Kind::map,
+            .text = "parts at steps of their own, or auto",
+            .choices = {"auto"}}},
+          {"models.*",
            {.name = "parts",
             .kind = Kind::names,
             .text = "parts and bodies that advance together, at a step of their own; the slowest "
@@ -27,6 +34,7 @@ constexpr int nowhere = -1;
 /// Which model each part of a scene belongs to.
 struct Division {
   std::vector<int> model_of_part;
+  std::vector<int> model_of_node;
   std::vector<Keys> keys;  ///< of the models
 };
 
@@ -116,6 +124,38 @@ void follow_ties(const PartGroup& group, const Scene& scene, Division& division)
   for (const int part : group.parts) model_of(part) = fastest;
 }
 
+/// The model of each node: that of its part, or the fastest of a bond that holds it; a node that is
+/// tied to a body advances with it.
+void divide_nodes(const Scene& scene, Division& division) {
+  std::vector<int>& of = division.model_of_node;
+  of.assign(static_cast<std::size_t>(scene.nodes.n_owned), 0);
+  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+    const Range& nodes = scene.parts[k].nodes;
+    std::fill(of.begin() + nodes.begin, of.begin() + nodes.end, division.model_of_part[k]);
+  }
+  std::vector<Bond> bonds;
+  if (const Bonds* asked = scene.store.find<Bonds>()) bonds = asked->list;
+  for (const PartGroup& group : scene.groups) {
+    bonds.push_back({group.name, group.nodes});
+    const auto body = static_cast<std::size_t>(group.parts.back());
+    bonds.back().nodes.push_back(scene.parts[body].nodes.begin);
+  }
+  for (bool again = true; again;) {
+    again = false;
+    for (const Bond& bond : bonds) {
+      int fastest = 0;
+      for (const Index i : bond.nodes) {
+        fastest = std::max(fastest, of[static_cast<std::size_t>(i)]);
+      }
+      for (const Index i : bond.nodes) {
+        int& mine = of[static_cast<std::size_t>(i)];
+        again = again || mine != fastest;
+        mine = fastest;
+      }
+    }
+  }
+}
+
 Division divide(const Keys& models, Scene& scene) {
   Division division;
   division.model_of_part.assign(scene.parts.size(), nowhere);
@@ -129,39 +169,61 @@ Division divide(const Keys& models, Scene& scene) {
   for (const PartGroup& group : scene.groups) follow_ties(group, scene, division);
   for (int& model : division.model_of_part) model = std::max(model, 0);
   keep_particles_together(scene, division);
+  divide_nodes(scene, division);
   return division;
 }
 
-/// The node ranges of the parts of one model, joined where they touch.
-std::vector<Range> ranges_of(const Scene& scene, const Division& division, int model) {
+/// The nodes of one model as ranges.
+std::vector<Range> ranges_of(const Division& division, int model) {
   std::vector<Range> ranges;
-  for (std::size_t k = 0; k < scene.parts.size(); ++k) {
-    const Range& nodes = scene.parts[k].nodes;
-    if (division.model_of_part[k] == model && !nodes.empty()) ranges.push_back(nodes);
+  const auto n = static_cast<Index>(division.model_of_node.size());
+  for (Index i = 0; i < n; ++i) {
+    if (division.model_of_node[static_cast<std::size_t>(i)] != model) continue;
+    if (ranges.empty() || ranges.back().end != i) ranges.push_back({i, i});
+    ranges.back().end = i + 1;
   }
-  std::ranges::sort(ranges, {}, &Range::begin);
-  std::vector<Range> joined;
-  for (const Range& r : ranges) {
-    if (!joined.empty() && joined.back().end == r.begin) {
-      joined.back().end = r.end;
-    } else {
-      joined.push_back(r);
+  return ranges;
+}
+
+void note_models_of_parts(Scene& scene, const Division& division) {
+  for (const int model : division.model_of_part) {
+    scene.store.get<Bonds>().model_of_part.push_back(static_cast<std::size_t>(model));
+  }
+}
+
+/// Models of one division, whose names and numbers of parts are as given.
+void take_chosen(Scene& scene, Models& models) {
+  const ChosenModels* chosen = scene.store.find<ChosenModels>();
+  if (chosen == nullptr || chosen->list.size() < 2) return;
+  Division division;
+  division.model_of_part.assign(scene.parts.size(), 0);
+  for (std::size_t k = 0; k < chosen->list.size(); ++k) {
+    for (const int p : chosen->list[k].parts) {
+      division.model_of_part[static_cast<std::size_t>(p)] = static_cast<int>(k);
     }
   }
-  return joined;
+  divide_nodes(scene, division);
+  for (std::size_t k = 0; k < chosen->list.size(); ++k) {
+    Model& model = models.list.emplace_back();
+    model.name = chosen->list[k].name;
+    model.ranges = ranges_of(division, static_cast<int>(k));
+  }
+  note_models_of_parts(scene, division);
 }
 
 void make_models(const Keys& root, Scene& scene, Models& models) {
   if (!root.has("models")) return;
+  if (root.word("models") == "auto") return take_chosen(scene, models);
   const Keys keys = root.map("models");
   const Division division = divide(keys, scene);
   int number = 0;
   for (const Keys& one : division.keys) {
     Model& model = models.list.emplace_back();
     model.name = one.name();
-    model.ranges = ranges_of(scene, division, number++);
+    model.ranges = ranges_of(division, number++);
     if (model.ranges.empty()) one.complain("parts", "no nodes are left for this model");
   }
+  note_models_of_parts(scene, division);
 }
 
 /// Says once where a model that stands before another allows the smaller step: nothing goes wrong
@@ -179,7 +241,7 @@ void warn_of_order(Scene& scene, const Models& models) {
 }
 
 void operations(const Keys& root, Scene& scene, Models& models) {
-  if (!root.has("models")) return;
+  if (models.list.size() < 2) return;
   models.list.back().plan.add({.name = "order of models",
                                .reason = asked_for_at(root.where("models")),
                                .stage = Stage::look,
@@ -190,10 +252,36 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                                }});
 }
 
+/// Which parts went where with `models: auto`, and what that saves.
+std::vector<Choice> choices(const Keys& root, Scene& scene) {
+  std::vector<Choice> list;
+  const ChosenModels* chosen = scene.store.find<ChosenModels>();
+  if (chosen == nullptr || root.word("models") != "auto") return list;
+  for (const ChosenModels::One& model : chosen->list) {
+    std::vector<std::string> names;
+    for (const int p : model.parts) {
+      const Part& part = scene.parts[static_cast<std::size_t>(p)];
+      if (part.cell != Cell::point) names.push_back(part.name);
+    }
+    list.push_back({"models." + model.name + ".parts", fmt::format("[{}]", fmt::join(names, ", ")),
+                    fmt::format("allow a step of {:.3g} s at the start", model.dt)});
+  }
+  list.push_back(
+      {"models", fmt::format("{} models", chosen->list.size()),
+       fmt::format("{:.3g} % of the steps of elements and particles that one model would "
+                   "make; what is tied or may touch stays together",
+                   100 * chosen->share_of_work)});
+  return list;
+}
+
 }  // namespace
 
 Effect models_effect() {
-  return {.name = "models", .schema = schema, .models = make_models, .operations = operations};
+  return {.name = "models",
+          .schema = schema,
+          .models = make_models,
+          .operations = operations,
+          .choices = choices};
 }
 
 }  // namespace gannet

@@ -84,6 +84,10 @@ Sample bodies_sample() {
   return {[] { return std::make_unique<WatchedRun>(bodies); }, 150, false};
 }
 
+Sample tied_sample() {
+  return {[] { return std::make_unique<WatchedRun>(tied_parts); }, 150, false};
+}
+
 Sample moored_sample() {
   return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
 }
@@ -375,6 +379,11 @@ TEST_CASE("same bits: models at steps of their own, 1, 2, 3 and 5 threads, and r
           "[bits]") {
   check_threads(moored_sample());
   check_restart(moored_sample());
+}
+
+TEST_CASE("same bits: parts tied across models, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
+  check_threads(tied_sample());
+  check_restart(tied_sample());
 }
 
 TEST_CASE("same bits: rigid bodies, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

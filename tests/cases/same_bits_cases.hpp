@@ -209,6 +209,30 @@ probes: {box: {body: box}}
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// A shell tied to the side of another and a block tied under it, each with its own mesh; the fine
+/// shell in a model of its own, and one tie that lets go.
+inline const std::string tied_parts = R"case(gannet: 1
+materials: {steel: {density: 7800, young: 210 GPa, poisson: 0.3}}
+parts:
+  wing:
+    shell: {material: steel, thickness: 20 mm}
+    shape: {plate: {size: [1, 1], elements: [12, 12], centre: [0.5, 0.5, 0]}}
+    initial_velocity: ["20*y", 0, "30*x*y"]
+  strip:
+    shell: {material: steel, thickness: 10 mm}
+    shape: {plate: {size: [0.5, 1], elements: [20, 37], centre: [1.25, 0.5, 0]}}
+    initial_velocity: [0, 0, "-40*y"]
+  block:
+    solid: {material: steel}
+    shape: {block: {from: [0.11, 0.13, -0.2], to: [0.52, 0.61, 0], elements: [7, 8, 4]}}
+ties:
+  seam: {nodes: {plane: {point: [1, 0, 0], normal: [1, 0, 0]}, of: strip}, to: wing}
+  glue: {nodes: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, of: block}, to: wing, breaks_at: 400 kN}
+models: {coarse: {parts: [wing, block]}, fine: {parts: strip}}
+loads: {gravity: [0, 0, -9.81 m/s^2]}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 /// A box that floats askew in a pool of 100 x 30 particles, held by two lines that are tied to it
 /// and advance with it in eight or more substeps a step of the water.
 inline const std::string moored = R"case(gannet: 1

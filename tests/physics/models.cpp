@@ -123,6 +123,34 @@ TEST_CASE("models: a moored box moves as in one model", "[physics]") {
   CHECK(energy_error(*two) < 2e-3);
 }
 
+TEST_CASE("models: auto groups parts by the steps that they allow", "[physics]") {
+  std::string text = moored(true);
+  const std::string given = "models: {water: {parts: pool}, lines: {parts: [left, right]}}";
+  text.replace(text.find(given), given.size(), "models: auto");
+  const auto s = make_simulation_of_text(text);
+  REQUIRE(s->models.list.size() == 2);
+  const auto same = make_simulation_of_text(moored(true));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& mine = s->models.list[k].ranges;
+    const auto& given_ranges = same->models.list[k].ranges;
+    REQUIRE(mine.size() == given_ranges.size());
+    CHECK(mine.front().begin == given_ranges.front().begin);
+    CHECK(mine.back().end == given_ranges.back().end);
+  }
+  run_to(*s, 0.05);
+  run_to(*same, 0.05);
+  CHECK(height_of_body(*s) == height_of_body(*same));
+  // Parts that allow about the same step are left in one model.
+  std::string alike = text;
+  for (const char* what : {"left: {cable: {EA: 1 MN, mass_per_length: 1 kg/m}",
+                           "right: {cable: {EA: 1 MN, mass_per_length: 1 kg/m}"}) {
+    std::string soft = what;
+    soft.replace(soft.find("1 MN"), 4, "20 kN");
+    alike.replace(alike.find(what), std::string(what).size(), soft);
+  }
+  CHECK(make_simulation_of_text(alike)->models.list.size() == 1);
+}
+
 TEST_CASE("models: the weight of a body acts with the water that carries it", "[physics]") {
   const auto s = make_simulation_of_text(moored(true));
   run_to(*s, 0.1);

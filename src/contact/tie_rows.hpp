@@ -1,0 +1,30 @@
+// Where nodes are tied: the segments of a part, and the place on them that is nearest to a node.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/part_tie.hpp"
+#include "search/segment_search.hpp"
+
+namespace gannet {
+
+/// What nodes can be tied to: the outer faces of solids, shells, and the elements of cables and
+/// beams. Corners are nodes of the scene; the last is repeated to fill four.
+std::vector<Corners> tie_segments(const Part& part);
+
+/// The nearest place on the segments for each node, in their order; `farthest` is the largest
+/// distance, at row `at`. A weight below 1e-9 counts as none.
+struct TieRows {
+  std::vector<TiedNode> rows;
+  double farthest = 0;    ///< [m]
+  double size_there = 0;  ///< longest side of the segment there [m]
+  std::size_t row_there = 0;
+};
+
+/// Finds them. Needs at least one segment. Where `within` is 0, a node may be a tenth of the
+/// longest side of its segment away: farthest / size_there then tells whether one is too far.
+TieRows find_tie_rows(const Scene& scene, const std::vector<Index>& nodes,
+                      const std::vector<Corners>& segments);
+
+}  // namespace gannet
