@@ -55,6 +55,7 @@ std::vector<Effect> make_table() {
       free_surface_effect(),
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
+      cavities_effect(),
       walls_effect(),              // built around the particles; follows their passes
       sea_effect(),                // carries what fills and walls have made
       shell_effect(),              //

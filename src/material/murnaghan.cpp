@@ -54,6 +54,10 @@ Schema murnaghan_schema() {
        .unit = dim::pressure,
        .text = "smallest pressure of a fluid, relative to the same zero as p0; without it any "
                "tension is held"});
+  add({.name = "void",
+       .text = "largest share of void in a fluid that cavitates: its density falls no further, and "
+               "wider voids are forgotten (default: 0.1)",
+       .limits = between(0, 1)});
   add({.name = "expected_speed",
        .kind = Kind::number,
        .unit = dim::velocity,
@@ -120,7 +124,10 @@ Murnaghan read_murnaghan(const Keys& material, double largest_speed) {
                         "reference density");
     } else {
       cut_pressure(eos, p_min);
+      eos.rho_void = (1 - material.number_or("void", 0.1)) * eos.rho_min;
     }
+  } else if (material.given("void")) {
+    material.complain("void", "only a fluid with a smallest pressure (cavitation) has voids");
   }
   return eos;
 }

@@ -21,6 +21,8 @@ struct Murnaghan {
   double p_min = -std::numeric_limits<double>::infinity();  ///< cavitation [Pa], <= p0
   /// Density at p_min [kg/m^3]: below it p = p_min. 0 where nothing is cut.
   double rho_min = 0;
+  /// What a density that falls is held at [kg/m^3], below rho_min; 0 where it may fall freely.
+  double rho_void = 0;
 };
 
 /// s^gamma by multiplication for gamma = 7 (water), and 1, by std::pow otherwise. s > 0.

@@ -36,6 +36,9 @@ Effect shifting_effect();
 /// effects.renormalisation: densities become means of their surroundings every few steps.
 Effect renormalisation_effect();
 
+/// materials.*.void: how far the density of a fluid that cavitates may fall.
+Effect cavities_effect();
+
 /// effects.xsph: particles move with the local mean velocity.
 Effect xsph_effect();
 
