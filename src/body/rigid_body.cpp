@@ -19,13 +19,6 @@ namespace {
 
 Quaternion quaternion_of(const Eigen::Vector4d& q) { return {q[3], q[0], q[1], q[2]}; }
 
-/// The matrix of a x ( ).
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
 Vec3 torque_on_member(const Nodes& nodes, std::size_t i, const Vec3& centre) {
   Vec3 torque = (xyz(nodes.x[i]) - centre).cross(xyz(nodes.f[i]));
   if (nodes.rotating.contains(static_cast<Index>(i))) torque += xyz(nodes.torque[i]);
@@ -175,32 +168,6 @@ void track(Scene& scene, const std::string& body, const std::string& name, const
 }
 
 }  // namespace
-
-FreeRotation rotate_freely(const Quaternion& q, const Vec3& L, const Mat3& inverse_inertia,
-                           double dt) {
-  const Vec3 Pi = q.conjugate() * L;
-  Vec3 Pi_m = Pi;
-  Vec3 Omega = inverse_inertia * Pi_m;
-  double last = std::numeric_limits<double>::infinity();
-  for (int round = 1; round <= 30; ++round) {
-    const Vec3 residual = Pi_m - Pi - 0.5 * dt * Pi_m.cross(Omega);
-    const Mat3 slope =
-        Mat3::Identity() - 0.5 * dt * (cross_matrix(Pi_m) * inverse_inertia - cross_matrix(Omega));
-    const Vec3 change = slope.inverse() * residual;
-    const double size = change.norm();
-    Pi_m -= change;
-    Omega = inverse_inertia * Pi_m;
-    // Done at rounding: below it, or small and no longer shrinking.
-    const double scale = Pi.norm();
-    if (size <= 1e-15 * scale || (size <= 1e-13 * scale && size >= last)) {
-      const Vec3 half = 0.5 * dt * Omega;
-      return {(q * Quaternion(1, half.x(), half.y(), half.z())).normalized(), q * Omega, round,
-              true};
-    }
-    last = size;
-  }
-  return {q, Vec3::Zero(), 30, false};
-}
 
 FreeRotation rotate_guided(const Quaternion& q, const Mat3& inertia, unsigned mask,
                            const Vec3& wanted, double dt, Vec3& L) {

@@ -8,15 +8,7 @@
 //   look    kinetic energy of rotation at level n
 //   drift   members exactly from q(n+1), so that a body never deforms
 //
-// Free rotation. In the frame of the body, Pi = R(q)^T L and Pi' = Pi x (I^-1 Pi). The midpoint
-// rule reads
-//   Pi(n+1) - Pi(n) = dt Pi_m x Omega,   Pi_m = (Pi(n) + Pi(n+1))/2,   Omega = I^-1 Pi_m.
-// The increment is normal to Pi_m and to I^-1 Pi_m, and (a - b).(a + b) = |a|^2 - |b|^2: so |Pi|^2
-// and Pi . I^-1 Pi, the kinetic energy, are both kept exactly. The same equation, written
-//   (1 + dt/2 [Omega]) Pi(n+1) = (1 - dt/2 [Omega]) Pi(n),
-// says Pi(n+1) = C^T Pi(n) with the Cayley rotation C of dt Omega, whose quaternion is
-// (1, dt Omega/2) normalised. With q(n+1) = q(n) (1, dt Omega/2)/|.| therefore
-// R(n+1) Pi(n+1) = R(n) Pi(n) = L: the spatial angular momentum does not change at all.
+// Free rotation keeps L and the kinetic energy exactly (base/free_rotation.hpp).
 //
 // Given motion. Some components of the velocity of the centre and of the mean angular velocity in
 // space may follow functions of time. The force and couple that this takes are found in the kick,
@@ -28,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "base/free_rotation.hpp"
 #include "base/function.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
@@ -81,21 +74,6 @@ struct RigidBody {
 struct RigidBodies {
   std::deque<RigidBody> list;
 };
-
-/// Result of a free rotation over dt.
-struct FreeRotation {
-  Quaternion q;  ///< at the end of the step
-  Vec3 omega;    ///< mean angular velocity in space: the step turns by the Cayley map of it
-  int iterations = 0;
-  bool settled = false;  ///< false: not solved, q and omega mean nothing
-};
-
-/// Free rotation over dt [s] with fixed spatial angular momentum L [kg m^2/s] by the implicit
-/// midpoint rule (see above), solved by Newton's method to rounding within 30 rounds.
-/// inverse_inertia: in the frame of the body [1/(kg m^2)]. Wants dt |omega| below about 1: the vote
-/// of the body sees to that. Throws nothing.
-FreeRotation rotate_freely(const Quaternion& q, const Vec3& L, const Mat3& inverse_inertia,
-                           double dt);
 
 /// Rotation over dt [s] where the components d of the mean angular velocity with bit d of mask are
 /// wanted[d] [rad/s], and the others follow from L, of which the given components do not count.
