@@ -1,12 +1,14 @@
 // How a case asks for prescribed motion: boundaries.NAME: {nodes, fix, velocity, angular_velocity}.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
 #include "body/effects.hpp"
 #include "body/prescribed_motion.hpp"
 #include "scene/followers.hpp"
+#include "scene/given_rotations.hpp"
 #include "scene/node_set.hpp"
 
 namespace gannet {
@@ -133,6 +135,10 @@ void read_motion(const Keys& boundary, Scene& scene, Owners& owners) {
   }
   motion.nodes = select_nodes(boundary.map("nodes"), scene);
   if (motion.nodes.empty() || !rotations_exist(boundary, sources, scene, motion)) return;
+  if (std::any_of(sources.begin() + 3, sources.end(), [](const char* s) { return s != nullptr; })) {
+    auto& given = scene.store.get<GivenRotations>().nodes;
+    given.insert(given.end(), motion.nodes.begin(), motion.nodes.end());
+  }
   PrescribedMotion& kept =
       scene.store.get<PrescribedMotions>().list.emplace_back(std::move(motion));
   claim(boundary, sources, scene, owners, kept);

@@ -96,23 +96,29 @@ BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r, double sh
   return pose;
 }
 
-/// The highest frequency of a free element, squared, from its own lumped mass m = rho A l0/2 and
-/// rotary inertia I_r; l: present length [m], N: axial force [N].
-///   along it    2 E A/(l0 m)
-///   torsion     2 G J/(l0 I_r)
-///   bending     12 E I/(l0 (1 + phi)) (2/(m l^2) + 1/(2 I_r)) with both ends turned alike, or
-///               2 E I/(l0 I_r) against each other; a tension adds 4 N/(l m) to the former
-double omega2_of(const BeamLaw& law, double l0, double l, double N) {
+BeamNodeMass mass_of(const BeamLaw& law, double l0) {
   const BeamSection& s = law.section;
   const double m = 0.5 * law.rho * s.A * l0;
-  const double I = std::max(s.I_y, s.I_z);
-  const double I_r = rotary_ratio(law, l0) * m * I / s.A;
-  const auto bending = [&](double I_s, double A_s) {
+  const RotaryRatios r = rotary_ratios(law, l0);
+  return {m, m / s.A * Vec3(s.I_y + s.I_z, r.y * s.I_y, r.z * s.I_z)};
+}
+
+/// The highest frequency of a free element, squared, from its own lumped mass m = rho A l0/2 and
+/// rotary inertia J_x, J_y, J_z; l: present length [m], N: axial force [N].
+///   along it    2 E A/(l0 m)
+///   torsion     2 G J/(l0 J_x)
+///   bending     12 E I/(l0 (1 + phi)) (2/(m l^2) + 1/(2 J_r)) with both ends turned alike, or
+///               2 E I/(l0 J_r) against each other; a tension adds 4 N/(l m) to the former
+double omega2_of(const BeamLaw& law, double l0, double l, double N) {
+  const BeamSection& s = law.section;
+  const BeamNodeMass mass = mass_of(law, l0);
+  const auto bending = [&](double I_s, double A_s, double J_r) {
     const double k = 12 * law.E * I_s / (l0 * (1 + shear_ratio(law, I_s, A_s, l0)));
-    return k * (2 / (m * l * l) + 0.5 / I_r) + 4 * std::max(N, 0.0) / (l * m);
+    return std::max(k * (2 / (mass.m * l * l) + 0.5 / J_r) + 4 * std::max(N, 0.0) / (l * mass.m),
+                    2 * law.E * I_s / (l0 * J_r));
   };
-  return std::max({2 * law.E * s.A / (l0 * m), 2 * law.G * s.J / (l0 * I_r),
-                   2 * law.E * I / (l0 * I_r), bending(s.I_y, s.A_z), bending(s.I_z, s.A_y)});
+  return std::max({2 * law.E * s.A / (l0 * mass.m), 2 * law.G * s.J / (l0 * mass.I.x()),
+                   bending(s.I_y, s.A_z, mass.I.y()), bending(s.I_z, s.A_y, mass.I.z())});
 }
 
 /// Turns the nodes of a block by omega dt_old.
@@ -341,14 +347,14 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, double dt, Index begin, Index
 
 }  // namespace
 
-double rotary_ratio(const BeamLaw& law, double l0) {
-  if (law.rotary_inertia > 0) return law.rotary_inertia;
+RotaryRatios rotary_ratios(const BeamLaw& law, double l0) {
+  if (law.rotary_inertia > 0) return {law.rotary_inertia, law.rotary_inertia};
   const BeamSection& s = law.section;
   const auto wanted = [&](double I, double A_s) {
     const double room = 1 + shear_ratio(law, I, A_s, l0) - 12 * I / (s.A * l0 * l0);
-    return 3 * I / (std::max(s.I_y, s.I_z) * std::max(1.0, room));
+    return std::max(1.0, 3 / std::max(1.0, room));
   };
-  return std::max({1.0, wanted(s.I_y, s.A_z), wanted(s.I_z, s.A_y)});
+  return {wanted(s.I_y, s.A_z), wanted(s.I_z, s.A_y)};
 }
 
 BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
@@ -390,11 +396,7 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
 }
 
 BeamNodeMass node_mass(const BeamBlock& block, Index e) {
-  const BeamSection& s = block.law.section;
-  const double l0 = block.l0[static_cast<std::size_t>(e)];
-  const double r2 = std::max(s.I_y, s.I_z) / s.A;
-  const double m = 0.5 * block.law.rho * s.A * l0;
-  return {m, rotary_ratio(block.law, l0) * m * r2};
+  return mass_of(block.law, block.l0[static_cast<std::size_t>(e)]);
 }
 
 Array<double> bounds_of(const BeamBlock& block) {
@@ -410,7 +412,7 @@ void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
     const auto i = static_cast<std::size_t>(block.ends[k]);
     const BeamNodeMass mass = node_mass(block, static_cast<Index>(k / 2));
     nodes.x[i].w += mass.m;
-    nodes.torque[i].w += mass.I;
+    nodes.torque[i].w += mass.largest();
   }
 }
 

@@ -26,7 +26,7 @@ struct BeamLaw {
   double E = 0;               ///< Young's modulus [Pa], > 0
   double G = 0;               ///< shear modulus [Pa], > 0
   double rho = 0;             ///< density [kg/m^3], > 0
-  double rotary_inertia = 0;  ///< of a node over m max(I_y, I_z)/A; 0: see rotary_ratio()
+  double rotary_inertia = 0;  ///< of a node about y, z over m I_y/A, m I_z/A; 0: rotary_ratios()
   double dt_factor = 0.9;     ///< share of the stable step that is voted for
   UniaxialLaw yield;          ///< of the fibres; elastic unless it yields
   StiffnessDamping damping;
@@ -99,16 +99,22 @@ inline constexpr Index beam_chunk = 256;
 BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<const Line> x,
                           const BeamLaw& law, const Vec3& up);
 
-/// Rotary inertia of a node, the same about all axes, over m max(I_y, I_z)/A of an element of
-/// length l0: law.rotary_inertia; where that is 0 the least one, from 1 on, with which rotations do
-/// not limit the step (see omega2_of() in beam.cpp):
-///   max(1, 3 q/max(1, 1 + phi - 12 I/(A l0^2))) over both planes, q = I/max(I_y, I_z)
-double rotary_ratio(const BeamLaw& law, double l0);
+/// Rotary inertia of a node about y and z over m I_y/A and m I_z/A of an element of length l0:
+/// law.rotary_inertia; where that is 0 the least one, from 1 on, with which rotations do not limit
+/// the step (see omega2_of() in beam.cpp):
+///   max(1, 3/max(1, 1 + phi - 12 I/(A l0^2)))
+struct RotaryRatios {
+  double y = 1;
+  double z = 1;
+};
+RotaryRatios rotary_ratios(const BeamLaw& law, double l0);
 
-/// Mass [kg] and rotary inertia [kg m^2] that element e gives to each of its nodes.
+/// Mass [kg] and rotary inertia about the axes of the section [kg m^2] that element e gives to each
+/// of its nodes: m (I_y + I_z)/A about x, rotary_ratios() m I/A about y and z.
 struct BeamNodeMass {
   double m = 0;
-  double I = 0;
+  Vec3 I = Vec3::Zero();
+  [[nodiscard]] double largest() const { return I.maxCoeff(); }
 };
 BeamNodeMass node_mass(const BeamBlock& block, Index e);
 
@@ -127,7 +133,8 @@ bool release(BeamBlock& block, Index node, unsigned axes);
 /// Fills plastic_shown. Needs a law that yields.
 void show_plastic_strain(BeamBlock& block);
 
-/// Adds to both nodes of each element m = rho A l0/2, and rotary_ratio() m max(I_y, I_z)/A.
+/// Adds to both nodes of each element m = rho A l0/2, and the largest of its rotary inertias: what
+/// the nodes' tensor is less about other axes is the matter of beam_inertia.hpp.
 void add_beam_masses(const BeamBlock& block, Nodes& nodes);
 
 /// One pass: node triads to n, forces and moments at x(n) added to nodes.f and nodes.torque;
@@ -152,7 +159,7 @@ BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& thet
                        const Vec3& theta_2, double& energy);
 
 /// The stable step after a pass [s]: dt_factor 2/omega of the element with the highest bound, l0/c
-/// where rotary_ratio() chooses the rotary inertia and the beam shears more easily than it
+/// where rotary_ratios() chooses the rotary inertia and the beam shears more easily than it
 /// stretches, as beams of isotropic solids do.
 double stable_step(const BeamBlock& block);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fe/beam.hpp"
+#include "fe/beam_inertia.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
 #include "fe/mass_scaling.hpp"
@@ -36,8 +37,8 @@ std::vector<Key> own_keys() {
            .text = "direction near which z of the section lies; unless said the z axis, and x for "
                    "elements along that"},
           {.name = "rotary_inertia",
-           .text = "rotary inertia of nodes over m max(I)/A; unless said the least one, from 1 on, "
-                   "with which rotations do not limit the step",
+           .text = "rotary inertia of nodes about the axes across over that of the section; unless "
+                   "said the least one, from 1 on, with which rotations do not limit the step",
            .limits = positive()},
           {.name = "dt_factor",
            .text = "share of the stable step of the elements that is used",
@@ -179,7 +180,7 @@ void scale_masses(const Keys& part, BeamBlock& block, Scene& scene) {
       .bounds = bounds_of(block),
       .mass = [&](Index e) -> CornerMass {
         const BeamNodeMass own = node_mass(block, e);
-        return {own.m, own.I};
+        return {own.m, own.largest()};
       },
       .corner = [&](Index e, int a) { return block.ends[static_cast<std::size_t>(2 * e + a)]; },
       .cell = [](Index e) { return e; },
@@ -241,6 +242,9 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     part.stable_dt = [&block] { return stable_step(block); };
     part.limiting = [&block] { return block.limiting; };
     add_element_operation(root, scene, models, std::move(part));
+    if (!scene.parts[static_cast<std::size_t>(block.part)].rigid) {
+      add_beam_inertia(scene, block, models);
+    }
   }
 }
 
