@@ -163,6 +163,16 @@ double contact_step(double omega2, double zeta) {
   return 0.4 * 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta);
 }
 
+double step_beside(double d, double omega2, double zeta) {
+  if (!(omega2 > 0)) return d;
+  constexpr double a2 = 0.672078;  // (1.04^(1/2) - 0.2)^2
+  const double omega = std::sqrt(omega2);
+  const double w = omega / 1.9;
+  const double b = 0.9 * (1 - a2) / d + 2 * zeta * w;
+  const double a = 0.81 * a2 / (d * d) + w * w;
+  return std::min({d, 1.25 / omega, 2 / (b + std::sqrt(b * b + 4 * a))});
+}
+
 Work contact_work(const ContactInput& in, std::span<const Vec3> force,
                   std::span<const WorkPath> point_path_of_row,
                   std::span<const WorkPath> node_path) {

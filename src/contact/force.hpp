@@ -106,6 +106,15 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
 /// limit and the contact at 0.4 of its own, (omega dt)^2 <= 4 (0.9^2 + 0.4^2) = 3.88 < 4.
 double contact_step(double omega2, double zeta);
 
+/// The step t with a contact of frequency omega on top of what allows the step d. Stable is a step
+/// with t^2/4 K + t/2 C <= M; elements with a fifth of critical damping at most that use 0.9 of
+/// theirs take A (t/d)^2 + B t/d of it, A = 0.81 a^2, B = 0.9 (1 - a^2), a = (1 + 0.2^2)^(1/2) -
+/// 0.2, the contact w^2 + 2 zeta w with w = omega t/1.9. Beside that omega t stays below 1.25: the
+/// force begins up to a step late, and from about 1.5 on what that gives to nodes that come and go
+/// feeds itself. d: the smallest vote of all else [s], may be infinite; omega2 [1/s^2]. Never above
+/// d. Throws nothing.
+double step_beside(double d, double omega2, double zeta);
+
 /// Work of `force` on points and segments along work_path(), summed over the rows [J].
 Work contact_work(const ContactInput& in, std::span<const Vec3> force,
                   std::span<const WorkPath> point_path_of_row, std::span<const WorkPath> node_path);

@@ -90,23 +90,34 @@ Overlaps find_part_gaps(PartContact& c, PartDirection& d, bool first) {
       });
 }
 
-/// Adds the stiffnesses of all near pairs to what meets at their nodes.
-void add_meeting(const PartContact& c, const PartDirection& d, PartMeeting& all) {
+/// Adds the rows of all near pairs to what meets at their nodes, k g_i sum g_j with g = 1 for the
+/// point and N for the corners, j over those that forces move.
+void add_meeting(const Scene& scene, const PartContact& c, const PartDirection& d,
+                 PartMeeting& all) {
+  const auto moves = [&](Index node) {
+    return scene.nodes.v[static_cast<std::size_t>(node)].w > 0 || c.followers->leader_of(node) >= 0;
+  };
   const auto add = [&](Index node, double k) {
-    if (!(k > 0)) return;
-    double& sum = all.stiffness[static_cast<std::size_t>(node)];
-    if (sum == 0) all.touched.push_back(node);
-    sum += k;
+    if (moves(node)) add_stiffness(all, node, k);
   };
   const Surface& surface = c.sides[d.segments].surface;
   for (std::size_t r = 0; r < d.gaps.size(); ++r) {
     const Gap& gap = d.gaps[r];
     if (gap.segment < 0) continue;
-    const auto point = static_cast<std::size_t>(d.candidates.point[r]);
-    add(c.sides[d.points].surface.node[point], d.stiffness[r]);
+    const Index point =
+        c.sides[d.points].surface.node[static_cast<std::size_t>(d.candidates.point[r])];
     const Segment& g = surface.segments[static_cast<std::size_t>(gap.segment)];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(g.n_corners); ++k) {
-      add(surface.node[static_cast<std::size_t>(g.corner[k])], d.stiffness[r] * gap.N[k]);
+    const auto n_corners = static_cast<std::size_t>(g.n_corners);
+    const auto corner = [&](std::size_t k) {
+      return surface.node[static_cast<std::size_t>(g.corner[k])];
+    };
+    double moving = moves(point) ? 1 : 0;
+    for (std::size_t k = 0; k < n_corners; ++k) {
+      if (moves(corner(k))) moving += gap.N[k];
+    }
+    add(point, d.stiffness[r] * moving);
+    for (std::size_t k = 0; k < n_corners; ++k) {
+      add(corner(k), d.stiffness[r] * gap.N[k] * moving);
     }
   }
 }
@@ -141,8 +152,17 @@ double pair_stiffness(const PartSide& points, const PartSide& segments, std::siz
   if (gap.segment < 0) return 0;
   double area = points.area[i];
   if (points.solid) area = std::max(least_facing * area, -points.facing[i].dot(gap.normal));
-  const double kappa = std::min(points.kappa[i], at_foot(segments.surface, gap, segments.kappa));
+  const double of_face = at_foot(segments.surface, gap, segments.kappa);
+  const double kappa =
+      std::isinf(of_face) ? 2 * points.kappa[i] : 1 / (1 / points.kappa[i] + 1 / of_face);
   return factor * kappa * std::min(area, at_foot(segments.surface, gap, segments.area));
+}
+
+void add_stiffness(PartMeeting& meeting, Index node, double k) {
+  if (!(k > 0)) return;
+  double& sum = meeting.stiffness[static_cast<std::size_t>(node)];
+  if (sum == 0) meeting.touched.push_back(node);
+  sum += k;
 }
 
 void part_contact_pass(Scene& scene, PartContact& c, const Step& step, PartMeeting& meeting) {
@@ -161,7 +181,7 @@ void part_contact_pass(Scene& scene, PartContact& c, const Step& step, PartMeeti
     const ContactInput in = input_of(scene, c, d, step);
     contact_forces(in, c.law, d.tangential, d.forces);
     d.scattered = scatter_forces(in, c.law, d.forces, scene.nodes, d.node_stiffness);
-    add_meeting(c, d, meeting);
+    add_meeting(scene, c, d, meeting);
   }
 }
 
@@ -185,10 +205,10 @@ ContactRate rate_of(const Nodes& nodes, const Followers& followers, const PartMe
     const auto i = static_cast<std::size_t>(node);
     const Index leader = followers.leader_of(node);
     if (leader >= 0) {
-      bodies[leader] += 2 * meeting.stiffness[i] * followers.inverse_mass[i];
+      bodies[leader] += meeting.stiffness[i] * followers.inverse_mass[i];
       continue;
     }
-    const double omega2 = 2 * meeting.stiffness[i] * nodes.v[i].w;
+    const double omega2 = meeting.stiffness[i] * nodes.v[i].w;
     if (omega2 > rate.omega2) rate = {omega2, node};
   }
   for (const auto& [leader, omega2] : bodies) {

@@ -46,13 +46,15 @@ struct PartContact;
 /// What the contacts between parts of one model add to its nodes together, since a node may take
 /// part in several of them.
 struct PartMeeting {
-  std::vector<double> stiffness;  ///< per node of the table sum k N_i over all near pairs [N/m]
-  std::vector<Index> touched;     ///< nodes where it is not zero
+  /// Per node of the table its row of the stiffness, sum k g_i sum g_j over all near pairs, g = 1
+  /// for the point of a pair and N for its corners, j over those that forces move [N/m].
+  std::vector<double> stiffness;
+  std::vector<Index> touched;  ///< nodes where it is not zero
   std::vector<PartContact*> contacts;
   std::vector<std::size_t> numbers;     ///< theirs
   std::vector<PartContact*> near;       ///< of them, those that have pairs at this level
   std::vector<PartContact*> were_near;  ///< those that had at the last; all of them at first
-  double damping = 0;                   ///< the largest of the contacts
+  double damping = 0;  ///< the largest of the contacts
 };
 
 /// One contact of the case.
@@ -89,10 +91,10 @@ Gap gap_of_solid(const Surface& surface, const Nearest& nearest, const Vec3& x, 
                  double depth);
 
 /// Penalty of the pair of a node and its foot [N/m]:
-///   k = factor min(kappa, sum N_i kappa_i) min(A, sum N_i A_i)
-/// with A the area of the node that faces along the gap (solids) or its share of the areas around
-/// it (shells): continuous while the foot moves from one segment to the next.
-/// i: surface node of `points`.
+///   k = factor min(A, sum N_i A_i)/(1/kappa + 1/(sum N_i kappa_i)),
+/// both penalties in a row; of a node on a rigid face 2 kappa, which asks for the same step. A: the
+/// area of the node that faces along the gap (solids) or its share of the areas around it (shells):
+/// continuous while the foot moves from one segment to the next. i: surface node of `points`.
 double pair_stiffness(const PartSide& points, const PartSide& segments, std::size_t i,
                       const Gap& gap, double factor);
 
@@ -110,6 +112,9 @@ void set_distance(PartContact& contact, double d);
 /// the meeting. A contact that has pairs is in
 /// `near` then.
 void part_contact_pass(Scene& scene, PartContact& contact, const Step& step, PartMeeting& meeting);
+
+/// Adds to what meets at a node [N/m]; nothing for 0.
+void add_stiffness(PartMeeting& meeting, Index node, double k);
 
 /// The same for all contacts of a meeting that do not wait.
 void part_contacts_pass(Scene& scene, PartMeeting& meeting, const Step& step);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "contact/part_contact.hpp"
 #include "contact/part_search.hpp"
@@ -121,6 +122,17 @@ void add_works(const Scene& scene, PartMeeting& meeting, const Step& step) {
   meeting.were_near = meeting.near;
 }
 
+/// The smallest vote of all operations but the one of that name [s].
+double smallest_of_others(const Plan& plan, const std::string& name) {
+  double dt = std::numeric_limits<double>::infinity();
+  for (int s = 0; s < n_stages; ++s) {
+    for (const Operation& op : plan.at(static_cast<Stage>(s))) {
+      if (op.stable_dt && op.name != name) dt = std::min(dt, op.stable_dt());
+    }
+  }
+  return dt;
+}
+
 std::string who_limits(Scene& scene, const PartMeeting& meeting) {
   const ContactRate rate = rate_of(scene.nodes, scene.store.get<Followers>(), meeting);
   if (rate.node < 0) return "contact of parts";
@@ -191,9 +203,12 @@ void add_part_contact_operations(Scene& scene, PartMeeting& meeting, Model& mode
   op.writes = {"f"};
   op.owns = {"contact.waits"};
   op.run = [&](const Step& step) { part_contacts_pass(scene, meeting, step); };
-  op.stable_dt = [&] {
+  op.stable_dt = [&, name = op.name] {
     const ContactRate rate = rate_of(scene.nodes, scene.store.get<Followers>(), meeting);
-    return contact_step(rate.omega2, meeting.damping);
+    if (!(rate.omega2 > 0)) return std::numeric_limits<double>::infinity();
+    return std::max(
+        contact_step(rate.omega2, meeting.damping),
+        step_beside(smallest_of_others(model.plan, name), rate.omega2, meeting.damping));
   };
   op.limited_by = [&] { return who_limits(scene, meeting); };
   model.plan.add(std::move(op));

@@ -12,10 +12,9 @@ namespace gannet {
 
 namespace {
 
-/// Shares of the stiffness of an element that a penalty may have: with them contact between equal
-/// meshes asks for about the step of their elements.
-constexpr double share_of_solid = 0.4;
-constexpr double share_of_shell = 0.1;
+/// Shares of the stiffness of an element that a penalty may have.
+constexpr double share_of_solid = 1;
+constexpr double share_of_shell = 0.2;
 constexpr double share_of_line = 0.1;
 
 /// Penalty per area that each segment can bear [Pa/m], and the size of what is behind it [m].
@@ -27,7 +26,7 @@ struct Bearing {
 Bearing bearing_of(const ShellSurface& data, bool rigid, double area, double volume) {
   const double size = volume > 0 ? volume / area : std::sqrt(area);
   if (rigid) return {std::numeric_limits<double>::infinity(), size};
-  if (volume > 0) return {share_of_solid * data.bulk * area / volume, size};
+  if (volume > 0) return {share_of_solid * data.modulus * area / volume, size};
   return {share_of_shell * data.young * data.thickness / area, size};
 }
 
@@ -72,8 +71,7 @@ PartSide make_line_side(const Scene& scene, int number, const ShellSurface& data
                   .norm();
   }
   const double L = length / static_cast<double>(part.n_cells());
-  const double k =
-      part.rigid ? std::numeric_limits<double>::infinity() : share_of_line * data.axial / L;
+  const double k = part.rigid ? std::numeric_limits<double>::infinity() : share_of_line * data.axial / L;
   side.depth = L;
   side.kappa.assign(side.surface.node.size(), k / (L * L));
   side.area.assign(side.surface.node.size(), L * L);

@@ -19,7 +19,7 @@ struct PartSide {
   double depth = 0;      ///< smallest size of an element behind its surface [m]
   Surface surface;
   /// Per surface node the penalty per area and penetration [Pa/m]: the mean over the segments
-  /// around it of 0.4 K A/V (solids) or 0.1 E t/A (shells); infinite where the part is rigid.
+  /// around it of (K + 4/3 G) A/V (solids) or 0.2 E t/A (shells); infinite where the part is rigid.
   std::vector<double> kappa;
   std::vector<double> area;  ///< per surface node: share of the areas around it now [m^2]
   std::vector<Vec3> facing;  ///< the same with the normals of the segments [m^2]

@@ -211,6 +211,13 @@ void scale_masses(const Keys& part, SolidBlock& block, Scene& scene) {
   scale_masses(part, block.part, scene, {&elements, 1});
 }
 
+/// K + 4/3 G, for what a contact may put on the surface [Pa]; of rubber at the start.
+double held_modulus(const ElasticPlastic& material) {
+  const double bulk =
+      material.hyperelastic() ? material.rubber.bulk : material.E / (3 * (1 - 2 * material.nu));
+  return bulk + 4.0 / 3 * material.G();
+}
+
 void state(const Keys& root, Scene& scene) {
   for (const Keys& keys : parts_with(root, "solid")) {
     const int number = scene.part_number(keys.name());
@@ -237,8 +244,7 @@ void state(const Keys& root, Scene& scene) {
     add_measures(scene, block);
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
-    surfaces[static_cast<std::size_t>(number)].bulk =
-        material.hyperelastic() ? material.rubber.bulk : material.E / (3 * (1 - 2 * material.nu));
+    surfaces[static_cast<std::size_t>(number)].modulus = held_modulus(material);
   }
 }
 

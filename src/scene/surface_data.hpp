@@ -15,8 +15,8 @@ struct ShellSurface {
   /// For each cell of the part whether it has left; nullptr where none can. Up to date in the force
   /// stage once the elements have been passed over.
   const std::vector<std::uint8_t>* gone = nullptr;
-  double bulk = 0;   ///< bulk modulus of a part of solids [Pa]
-  double axial = 0;  ///< axial stiffness EA of a part of cables or beams [N]
+  double modulus = 0;  ///< K + 4/3 G of a part of solids, its stiffness with sides held [Pa]
+  double axial = 0;    ///< axial stiffness EA of a part of cables or beams [N]
 };
 
 /// scene.store.get<SurfaceData>().of_part[p] belongs to scene.parts[p]; may be shorter than the

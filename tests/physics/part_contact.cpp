@@ -90,11 +90,10 @@ void print(const char* what, const Impact& r) {
 }  // namespace
 
 TEST_CASE("part contact: two equal bars exchange their velocities", "[contact][physics]") {
-  // St. Venant: F = rho c A v, for 2 L/c; 100 elements a bar. The rest of what is lost is the bulk
-  // viscosity's.
+  // St. Venant: F = rho c A v, for 2 L/c; 400 elements a bar. What is lost is the bulk viscosity's.
   const double F = 20236.1063;
   const double t = 385.449645e-6;
-  const auto s = bars(1, 100, 5, 100, -5, "");
+  const auto s = bars(1, 400, 5, 400, -5, "");
   const Impact r = impact_of(*s, 0.5 * F, 0.6e-3);
   print("equal bars", r);
   CHECK(r.impulse == Approx(F * t).epsilon(0.005));
@@ -107,7 +106,7 @@ TEST_CASE("part contact: two equal bars exchange their velocities", "[contact][p
 
 TEST_CASE("part contact: a short bar stops at a long one", "[contact][physics]") {
   // The short bar stays at rest, the long one leaves with half the speed. What the penalty's
-  // softness adds to the impulse falls as its stiffness grows.
+  // softness adds to the impulse falls as its stiffness grows, and is small at the standard one.
   const double F = 20236.1063;
   const double t = 192.724822e-6;
   double last = 1;
@@ -116,13 +115,13 @@ TEST_CASE("part contact: a short bar stops at a long one", "[contact][physics]")
     const Impact r = impact_of(*s, 0.5 * F, 0.3e-3);
     print("short bar", r);
     const double error = std::abs(r.impulse / (F * t) - 1);
-    CHECK(error < 0.5 * last);
+    CHECK(error < 0.6 * last);
     last = error;
     CHECK(r.duration == Approx(t).epsilon(0.01));
     CHECK(r.plateau == Approx(F).epsilon(0.005));
     CHECK(r.energy_error < 1e-3);
+    CHECK(error < 0.005);
   }
-  CHECK(last < 0.005);
 }
 
 TEST_CASE("part contact: momentum through a violent impact of two blocks", "[contact][physics]") {
@@ -218,8 +217,7 @@ TEST_CASE("part contact: a sliding block stops where friction says", "[contact][
 TEST_CASE("part contact: Hertz, a cylinder pressed on a rigid plane", "[contact][physics]") {
   // Johnson, Contact Mechanics: b^2 = 4 F' R/(pi E*), p0 = 2 F'/(pi b); R = 1 m, b/R = 0.048, six
   // elements over b. A block with a round foot is pressed by its weight and comes to rest by
-  // damping. The penalty is stiff, so that its own penetration is small against b^2/2R; at the
-  // standard one p0 is 9 % low. b is that of the second moment of the pressure, <x^2> = b^2/4: its
+  // damping. b is that of the second moment of the pressure, <x^2> = b^2/4: its
   // edge falls between two nodes.
   const double pi = 3.14159265358979;
   const auto s = make_simulation_of_text(
@@ -232,7 +230,7 @@ TEST_CASE("part contact: Hertz, a cylinder pressed on a rigid plane", "[contact]
       "0.7*y^2) + 0.125*(0.3*x + 0.7*x^3)^2*(1 - y)\", 0]}\n"
       "  plane: {rigid_surface: {}, shape: {line: {from: [-2, 0, 0], to: [2, 0, 0], elements: "
       "1}}}\n"
-      "contacts: {press: {between: [block, plane], thickness: 1 mm, stiffness: 20}}\n"
+      "contacts: {press: {between: [block, plane], thickness: 1 mm}}\n"
       "loads: {gravity: [0, -4315.4 m/s^2, 0]}\n"
       "output: {until: 1 s}\n");
   double mass = 0;

@@ -316,3 +316,14 @@ TEST_CASE("contact: sliding friction is mu f_n", "[contact]") {
   // 0.5 - 0.3 * 10 * 0.1 s; the load comes on at once, so f_n swings about its mean by as much
   CHECK(scene.nodes.v[4].x == Approx(0.2).margin(2e-3));
 }
+
+TEST_CASE("contact: the step beside elements, by hand", "[contact]") {
+  // Elements at 0.9 of their limit: A + B = 0.81 0.672 + 0.9 0.328 = 0.8395; omega d = 1 adds
+  // (1/1.9)^2 = 0.277 and more than 1 is left: the root of 0.8214 s^2 + 0.2951 s = 1, s = t/d.
+  CHECK(step_beside(2, 0.25, 0) == Approx(2 * 0.938259).epsilon(1e-5));
+  CHECK(step_beside(2, 0, 0) == 2);
+  CHECK(step_beside(2, 1e-6, 0) == 2);           // never above that of all else
+  CHECK(step_beside(2, 25, 0) == Approx(0.25));  // 1.25/omega
+  CHECK(step_beside(std::numeric_limits<double>::infinity(), 4, 0) == Approx(0.625));
+  CHECK(step_beside(2, 0.25, 0.5) < step_beside(2, 0.25, 0));
+}

@@ -52,6 +52,8 @@ Part box(Scene& s, const Vec3& origin, const std::vector<double>& sizes, int ny,
 
 /// A tip of one element on its own above a slab of elements of uneven length, h = 1; the lowest
 /// nodes of the tip at height z over the slab, its first at x.
+constexpr double kappa = 20.0 / 3;
+
 struct TipOnSlab {
   Scene scene;
   PartContact* contact = nullptr;
@@ -60,9 +62,9 @@ struct TipOnSlab {
   explicit TipOnSlab(double friction = 0) {
     scene.parts.push_back(box(scene, {0, 0, 1}, {0.5}, 1, 1, 0.5));
     scene.parts.push_back(box(scene, {-2, -2, -1}, {1, 1, 2, 0.5}, 4, 1, 1));
-    contact =
-        &make_part_contact(scene, "c", {0, 1}, {ShellSurface{.bulk = 10}, ShellSurface{.bulk = 10}},
-                           false, friction > 0);
+    contact = &make_part_contact(scene, "c", {0, 1},
+                                 {ShellSurface{.modulus = 10}, ShellSurface{.modulus = 10}}, false,
+                                 friction > 0);
     contact->law.friction = friction;
     set_distance(*contact, 0);
     contact->numbers[1] = 1;  // nothing here is an overlap at the start
@@ -138,11 +140,11 @@ TEST_CASE("outer faces: of a tetrahedron and a plane quadrilateral, outwards", "
 
 TEST_CASE("part contact: force and balance of a tip on a slab, by hand", "[contact]") {
   TipOnSlab t;
-  // Tip: kappa = 0.4 K A/V = 0.4 * 10 / 0.5 = 8; slab 0.4 * 10 / 1 = 4 on top of its elements. Each
-  // of the four lowest nodes bears a quarter of the tip's face, 1/16: k = 4/16, p = 0.1.
+  // Tip: kappa = (K + 4/3 G) A/V = 10/0.5 = 20; slab 10/1 = 10 on top of its elements; in a row
+  // 20/3. Each of the four lowest nodes bears a quarter of the tip's face, 1/16, p = 0.1.
   t.place(-1.75, -0.75, -0.1);
   const Vec3 down = t.contact->directions[0].scattered.on_surface;
-  CHECK(down.z() == Approx(-4 * 4.0 / 16 * 0.1));
+  CHECK(down.z() == Approx(-4 * kappa / 16 * 0.1));
   CHECK(std::abs(down.x()) < 1e-15);
   CHECK(t.contact->directions[0].scattered.active == 4);
   Vec3 sum = Vec3::Zero();
@@ -153,9 +155,12 @@ TEST_CASE("part contact: force and balance of a tip on a slab, by hand", "[conta
   }
   CHECK(sum.norm() < 1e-15);
   CHECK(moment.norm() < 1e-15);
-  // Gershgorin: the tip's nodes, of mass 1, take part in one pair each, 2 k / m = 0.5; no corner of
-  // the slab collects more.
-  CHECK(rate_of(t.scene.nodes, Followers{}, t.meeting).omega2 == Approx(0.5));
+  // Gershgorin: the tip's nodes, of mass 1, take part in one pair each, 2 k / m; no corner of the
+  // slab collects more. Against a slab that nothing moves it is k / m.
+  CHECK(rate_of(t.scene.nodes, Followers{}, t.meeting).omega2 == Approx(2 * kappa / 16));
+  for (std::size_t i = 8; i < t.scene.nodes.v.size(); ++i) t.scene.nodes.v[i].w = 0;
+  t.place(-1.75, -0.75, -0.1);
+  CHECK(rate_of(t.scene.nodes, Followers{}, t.meeting).omega2 == Approx(kappa / 16));
   t.place(-1.75, -0.75, 0.01);
   CHECK(t.contact->directions[0].scattered.active == 0);
   CHECK(t.meeting.touched.size() > 0);  // near, and known to the vote before it touches
@@ -187,7 +192,7 @@ TEST_CASE("part contact: an edge takes the front of the other, not its side", "[
   s.parts.push_back(box(s, {0, 0, 0}, {1, 1}, 2, 2, 1));
   s.parts.push_back(box(s, {1.99, 0, 0}, {1, 1}, 2, 2, 1));
   PartContact& c = make_part_contact(
-      s, "c", {0, 1}, {ShellSurface{.bulk = 10}, ShellSurface{.bulk = 10}}, true, false);
+      s, "c", {0, 1}, {ShellSurface{.modulus = 10}, ShellSurface{.modulus = 10}}, true, false);
   set_distance(c, 0);
   c.numbers[1] = 1;
   PartMeeting meeting;
@@ -195,11 +200,11 @@ TEST_CASE("part contact: an edge takes the front of the other, not its side", "[
   part_contact_pass(s, c, {.dt_old = 1e-3, .dt = 1e-3}, meeting);
   for (const PartDirection& d : c.directions) {
     CHECK(d.scattered.active == 9);
-    // kappa 4 times the whole face, 4, times 0.01.
-    CHECK(std::abs(d.scattered.on_surface.x()) == Approx(4 * 4 * 0.01));
+    // kappa 10 of both in a row, 5, times the whole face, 4, times 0.01.
+    CHECK(std::abs(d.scattered.on_surface.x()) == Approx(5 * 4 * 0.01));
     CHECK(std::abs(d.scattered.on_surface.y()) < 1e-12);
   }
-  CHECK(xyz(s.nodes.f[2]).x() == Approx(2 * -4 * 0.25 * 0.01));  // a corner, both ways
+  CHECK(xyz(s.nodes.f[2]).x() == Approx(2 * -5 * 0.25 * 0.01));  // a corner, both ways
 }
 
 TEST_CASE("part contact: what overlaps at the start is stress-free and reported", "[contact]") {
@@ -210,10 +215,10 @@ TEST_CASE("part contact: what overlaps at the start is stress-free and reported"
   CHECK(t.contact->numbers[2] == 4);
   CHECK(t.contact->numbers[3] == Approx(0.1));
   t.place(-1.75, -0.75, -0.15);
-  CHECK(t.contact->directions[0].scattered.on_surface.z() == Approx(-4 * 4.0 / 16 * 0.05));
+  CHECK(t.contact->directions[0].scattered.on_surface.z() == Approx(-4 * kappa / 16 * 0.05));
   t.place(-1.75, -0.75, -0.02);  // moves out: the offset shrinks with it
   t.place(-1.75, -0.75, -0.04);
-  CHECK(t.contact->directions[0].scattered.on_surface.z() == Approx(-4 * 4.0 / 16 * 0.02));
+  CHECK(t.contact->directions[0].scattered.on_surface.z() == Approx(-4 * kappa / 16 * 0.02));
 }
 
 TEST_CASE("part contact: parts apart wait, and meet in time", "[contact]") {
