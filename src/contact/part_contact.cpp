@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "contact/part_planes.hpp"
 #include "contact/part_search.hpp"
 
 namespace gannet {
@@ -196,10 +197,11 @@ void part_contacts_pass(Scene& scene, PartMeeting& meeting, const Step& step) {
     }
     part_contact_pass(scene, *meeting.contacts[k], step, meeting);
   }
+  for (PartOnPlanes* c : meeting.on_planes) part_on_planes_pass(scene, *c, step, meeting);
 }
 
 ContactRate rate_of(const Nodes& nodes, const Followers& followers, const PartMeeting& meeting) {
-  ContactRate rate;
+  ContactRate rate{meeting.rate2, -1};
   std::map<Index, double> bodies;  // by leader
   for (const Index node : meeting.touched) {
     const auto i = static_cast<std::size_t>(node);

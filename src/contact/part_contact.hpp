@@ -42,6 +42,7 @@ struct PartDirection {
 };
 
 struct PartContact;
+struct PartOnPlanes;
 
 /// What the contacts between parts of one model add to its nodes together, since a node may take
 /// part in several of them.
@@ -54,7 +55,9 @@ struct PartMeeting {
   std::vector<std::size_t> numbers;     ///< theirs
   std::vector<PartContact*> near;       ///< of them, those that have pairs at this level
   std::vector<PartContact*> were_near;  ///< those that had at the last; all of them at first
+  std::vector<PartOnPlanes*> on_planes;
   double damping = 0;  ///< the largest of the contacts
+  double rate2 = 0;    ///< the least that the vote goes by, see rate_of_all_nodes() [1/s^2]
 };
 
 /// One contact of the case.
@@ -116,7 +119,7 @@ void part_contact_pass(Scene& scene, PartContact& contact, const Step& step, Par
 /// Adds to what meets at a node [N/m]; nothing for 0.
 void add_stiffness(PartMeeting& meeting, Index node, double k);
 
-/// The same for all contacts of a meeting that do not wait.
+/// The same for all contacts of a meeting that do not wait, those with planes too.
 void part_contacts_pass(Scene& scene, PartMeeting& meeting, const Step& step);
 
 /// The largest squared frequency that all contacts of a meeting can add together, by Gershgorin

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "contact/part_contact.hpp"
+#include "contact/part_planes.hpp"
 #include "contact/part_search.hpp"
 #include "plan/effect.hpp"
 
@@ -120,6 +121,7 @@ void add_works(const Scene& scene, PartMeeting& meeting, const Step& step) {
     if (!done) add_work(scene, *c, step);
   }
   meeting.were_near = meeting.near;
+  for (PartOnPlanes* c : meeting.on_planes) add_work_on_planes(scene, *c, step);
 }
 
 /// The smallest vote of all operations but the one of that name [s].
@@ -141,9 +143,11 @@ std::string who_limits(Scene& scene, const PartMeeting& meeting) {
 }
 
 std::string reason_of(const PartMeeting& meeting) {
-  const std::string first = asked_for_at(meeting.contacts.front()->where);
-  if (meeting.contacts.size() == 1) return first;
-  return fmt::format("{} contacts, the first {}", meeting.contacts.size(), first);
+  const std::string first =
+      asked_for_at(meeting.contacts.empty() ? meeting.on_planes.front()->where
+                                            : meeting.contacts.front()->where);
+  const std::size_t n = meeting.contacts.size() + meeting.on_planes.size();
+  return n == 1 ? first : fmt::format("{} contacts, the first {}", n, first);
 }
 
 }  // namespace
@@ -201,7 +205,7 @@ void add_part_contact_operations(Scene& scene, PartMeeting& meeting, Model& mode
   op.stage = Stage::force;
   op.reads = {"x", "v"};
   op.writes = {"f"};
-  op.owns = {"contact.waits"};
+  if (!meeting.contacts.empty()) op.owns = {"contact.waits"};
   op.run = [&](const Step& step) { part_contacts_pass(scene, meeting, step); };
   op.stable_dt = [&, name = op.name] {
     const ContactRate rate = rate_of(scene.nodes, scene.store.get<Followers>(), meeting);

@@ -8,6 +8,7 @@
 #include "contact/effects.hpp"
 #include "contact/part_contact.hpp"
 #include "contact/part_kinds.hpp"
+#include "contact/part_planes.hpp"
 #include "plan/model_of_part.hpp"
 
 namespace gannet {
@@ -19,7 +20,13 @@ Schema schema() {
            {.name = "both_ways",
             .kind = Kind::flag,
             .text = "between parts of elements: the nodes of each part against the surface of the "
-                    "other, on unless said; off: those of the first against the second"}}};
+                    "other, on unless said; off: those of the first against the second"}},
+          {"contacts.*",
+           {.name = "pressure_per_depth",
+            .unit = dim::pressure / dim::length,
+            .text = "of a part of elements on planes, in place of what its elements can bear; a "
+                    "rigid surface needs it",
+            .limits = positive()}}};
 }
 
 ShellSurface data_of(Scene& scene, int part) {
@@ -68,6 +75,47 @@ void complain_of_no_distance(const Keys& keys, const PartContact& c) {
   keys.complain("between", "neither part has a thickness; say by 'thickness' where contact begins");
 }
 
+void complain_of_depth(const Keys& keys) {
+  if (!keys.given("pressure_per_depth")) return;
+  keys.complain("pressure_per_depth",
+                "has no meaning: it is for a part of elements and a boundary with planes");
+}
+
+/// Notes what of a mooring line or a surface without a stiffness cannot meet planes; true: it can.
+bool can_meet_planes(const Keys& keys, const Part& part, const ShellSurface& data) {
+  if (keys.given("pressure_per_depth")) return true;
+  if (is_line(part) && !(data.axial > 0)) {
+    keys.complain("between",
+                  fmt::format("'{}' is a mooring line, which knows its own bed only", part.name));
+    return false;
+  }
+  if (part.kind == "rigid_surface") {
+    keys.complain("between", fmt::format("'{}' has no material whose stiffness contact could go "
+                                         "by; say the pressure for a depth of penetration, "
+                                         "'pressure_per_depth: 1 GPa/m'",
+                                         part.name));
+    return false;
+  }
+  return true;
+}
+
+void meet_planes(const Keys& keys, Scene& scene, int part) {
+  const ShellSurface data = data_of(scene, part);
+  if (!can_meet_planes(keys, scene.parts[static_cast<std::size_t>(part)], data)) return;
+  const std::vector<std::string>& names = keys.words("between");
+  const bool first = scene.part_number(names[0]) == part;
+  PartOnPlanes& c =
+      make_part_on_planes(scene, keys.name(), part, data, planes_of(scene, names[first ? 1 : 0]),
+                          keys.number("friction") > 0);
+  c.where = keys.where();
+  c.factor = keys.number("stiffness");
+  if (keys.has("pressure_per_depth")) c.kappa = keys.number("pressure_per_depth");
+  c.law.friction = keys.number("friction");
+  c.law.damping = keys.number("damping");
+  c.distance = keys.number_or("thickness", 0.5 * data.thickness);
+  if (!keys.has("thickness")) warn_of_offset(scene, keys, part, data.offset);
+}
+
 void state(const Keys& root, Scene& scene) {
   if (!root.has("contacts")) return;
   const Keys contacts = root.map("contacts");
@@ -78,8 +126,15 @@ void state(const Keys& root, Scene& scene) {
       if (keys.given("both_ways")) {
         keys.complain("both_ways", "has no meaning: only two parts of elements can meet both ways");
       }
+      const int part = part_before_planes(scene, keys.words("between"));
+      if (part >= 0) {
+        meet_planes(keys, scene, part);
+      } else {
+        complain_of_depth(keys);
+      }
       continue;
     }
+    complain_of_depth(keys);
     if (!parts_can_meet(keys, scene, parts)) continue;
     const bool lines = is_line(scene.parts[static_cast<std::size_t>(parts[0])]) ||
                        is_line(scene.parts[static_cast<std::size_t>(parts[1])]);
@@ -101,8 +156,10 @@ void state(const Keys& root, Scene& scene) {
 }
 
 void operations(const Keys& root, Scene& scene, Models& models) {
-  if (!scene.store.has<PartContacts>()) return;
-  for (PartContact& c : scene.store.get<PartContacts>().list) {
+  const bool planes = scene.store.has<PartsOnPlanes>();
+  if (!planes && !scene.store.has<PartContacts>()) return;
+  auto& all = scene.store.get<PartContacts>();
+  for (PartContact& c : all.list) {
     const Keys keys = root.map("contacts").map(c.name);
     Model& model = model_of_part(scene, models, c.sides[0].part);
     if (&model != &model_of_part(scene, models, c.sides[1].part)) {
@@ -113,7 +170,13 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     }
     add_part_contact(scene, c, model, models.ledger);
   }
-  for (auto& [model, meeting] : scene.store.get<PartContacts>().meetings) {
+  if (planes) {
+    for (PartOnPlanes& c : scene.store.get<PartsOnPlanes>().list) {
+      add_part_on_planes(scene, c, all.meetings[&model_of_part(scene, models, c.side.part)],
+                         models.ledger);
+    }
+  }
+  for (auto& [model, meeting] : all.meetings) {
     add_part_contact_operations(scene, meeting, *model);
   }
 }
@@ -121,6 +184,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
 /// Contact distances and directions, where the case leaves them open.
 std::vector<Choice> choices(const Keys& root, Scene& scene) {
   std::vector<Choice> list;
+  if (scene.store.has<PartsOnPlanes>()) {
+    for (const PartOnPlanes& c : scene.store.get<PartsOnPlanes>().list) {
+      const Keys keys = root.map("contacts").map(c.name);
+      if (keys.given("thickness")) continue;
+      list.push_back({keys.path() + ".thickness", fmt::format("{:.4g} m", c.distance),
+                      "half the thickness of the part; solids have none"});
+    }
+  }
   if (!scene.store.has<PartContacts>()) return list;
   for (const PartContact& c : scene.store.get<PartContacts>().list) {
     const Keys keys = root.map("contacts").map(c.name);

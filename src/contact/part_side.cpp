@@ -57,7 +57,7 @@ Surface nodes_alone(const Part& part) {
   return surface;
 }
 
-PartSide make_line_side(const Scene& scene, int number, const ShellSurface& data) {
+PartSide make_line_side(const Scene& scene, int number, const ShellSurface& data, bool rigid) {
   const Part& part = scene.parts[static_cast<std::size_t>(number)];
   PartSide side;
   side.part = number;
@@ -71,7 +71,7 @@ PartSide make_line_side(const Scene& scene, int number, const ShellSurface& data
                   .norm();
   }
   const double L = length / static_cast<double>(part.n_cells());
-  const double k = part.rigid ? std::numeric_limits<double>::infinity() : share_of_line * data.axial / L;
+  const double k = rigid ? std::numeric_limits<double>::infinity() : share_of_line * data.axial / L;
   side.depth = L;
   side.kappa.assign(side.surface.node.size(), k / (L * L));
   side.area.assign(side.surface.node.size(), L * L);
@@ -89,9 +89,10 @@ Vec3 area_vector(const Segment& g, const Array<Line>& x) {
   return 0.5 * (at(2) - at(0)).cross(at(3) - at(1));
 }
 
-PartSide make_part_side(const Scene& scene, int number, const ShellSurface& data) {
+PartSide make_part_side(const Scene& scene, int number, const ShellSurface& data, bool elastic) {
   const Part& part = scene.parts[static_cast<std::size_t>(number)];
-  if (is_line(part)) return make_line_side(scene, number, data);
+  const bool rigid = part.rigid && !elastic;
+  if (is_line(part)) return make_line_side(scene, number, data, rigid);
   PartSide side;
   side.part = number;
   side.solid = part.kind == "solid";
@@ -106,7 +107,7 @@ PartSide make_part_side(const Scene& scene, int number, const ShellSurface& data
   for (std::size_t s = 0; s < side.surface.segments.size(); ++s) {
     const double area = area_vector(side.surface.segments[s], side.surface.x).norm();
     const double volume = side.solid ? volume_of_cell(part, scene.nodes, outer.element[s]) : 0;
-    bearing.push_back(bearing_of(data, part.rigid, area, volume));
+    bearing.push_back(bearing_of(data, rigid, area, volume));
     side.depth = std::min(side.depth, bearing.back().size);
   }
   spread(bearing, side);

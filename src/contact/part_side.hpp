@@ -28,8 +28,10 @@ struct PartSide {
 
 /// The side of a contact that a part of solids, shells, cables or beams or a rigid surface is. A
 /// node of a line of elements of length L counts for an area L^2, and kappa = 0.1 EA/L^3.
-/// data: of that part. Needs the positions of the start in the node table.
-PartSide make_part_side(const Scene& scene, int part, const ShellSurface& data);
+/// data: of that part; elastic: by its elements also where it is rigid, for what meets planes.
+/// Needs the positions of the start in the node table.
+PartSide make_part_side(const Scene& scene, int part, const ShellSurface& data,
+                        bool elastic = false);
 
 /// Takes positions from the node table; finds places, normals and areas.
 void update_side(const Nodes& nodes, PartSide& side);

@@ -52,14 +52,6 @@ Vec3 force_on_particle(const Plane& plane, const PlaneLaw& law, double d, const 
   return p > 0 ? Vec3(plane.normal * (law.rate2 * x.w * p)) : Vec3(Vec3::Zero());
 }
 
-/// Force of plane k on a node; entry: of its offset.
-Vec3 force_on_node(const NodesOnPlanes& state, std::size_t k, std::size_t entry, const Line& x) {
-  const Plane& plane = state.planes[k];
-  const double p = state.law.distance - height(plane, x) - state.offset[entry];
-  const double stiffness = state.law.rate2 * x.w + state.law.fixed;
-  return p > 0 ? Vec3(plane.normal * (stiffness * p)) : Vec3(Vec3::Zero());
-}
-
 void add_up(std::span<const PlaneSums> chunks, std::span<PlaneSums> sums) {
   std::fill(sums.begin(), sums.end(), PlaneSums{});
   for (std::size_t k = 0; k < chunks.size(); ++k) {
@@ -129,7 +121,7 @@ void set_laws(Scene& scene, ParticlesOnPlanes& state) {
   for (std::size_t p = 0; p < std::min(materials.size(), scene.parts.size()); ++p) {
     const ParticleMaterial& m = materials[p];
     if (!(m.spacing > 0)) continue;
-    state.law[p] = {0.5 * m.spacing, (m.c0 / m.spacing) * (m.c0 / m.spacing), 0};
+    state.law[p] = {0.5 * m.spacing, (m.c0 / m.spacing) * (m.c0 / m.spacing)};
   }
 }
 
@@ -313,56 +305,12 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
   add_up(state.chunks, state.sums);
 }
 
-void nodes_on_planes(Scene& scene, NodesOnPlanes& state) {
-  const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
-  const bool first = state.begun[0] == 0;
-  state.begun[0] = 1;
-  std::size_t entry = 0;
-  for (std::size_t k = 0; k < state.planes.size(); ++k) {
-    state.sums[k] = {};
-    for (Index i = range.begin; i < range.end; ++i, ++entry) {
-      const auto node = static_cast<std::size_t>(i);
-      const double inside =
-          std::max(0.0, state.law.distance - height(state.planes[k], scene.nodes.x[node]));
-      double& offset = state.offset[entry];
-      offset = first ? inside : std::min(offset, inside);
-      if (!(inside > offset)) continue;
-      const Vec3 f = force_on_node(state, k, entry, scene.nodes.x[node]);
-      add_xyz(scene.nodes.f[node], f);
-      state.sums[k].force -= f;
-    }
-  }
-}
-
-PlaneSums work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step) {
-  const Range range = scene.parts[static_cast<std::size_t>(state.part)].nodes;
-  PlaneSums sums;
-  std::size_t entry = 0;
-  for (std::size_t k = 0; k < state.planes.size(); ++k) {
-    for (Index i = range.begin; i < range.end; ++i, ++entry) {
-      const Line& x = scene.nodes.x[static_cast<std::size_t>(i)];
-      if (height(state.planes[k], x) >= state.law.distance) continue;
-      const Vec3 f = force_on_node(state, k, entry, x);
-      sums.work += work_along(work_path(scene.nodes, i, step), f);
-      const Plane& plane = state.planes[k];
-      if (plane.moves) sums.put_in += work_along(path_of_plane(plane, xyz(x), step), f);
-    }
-  }
-  return sums;
-}
-
 WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step) {
   const Vec3 arm = x - plane.point;
   WorkPath path;
   path.col(0) = (plane.velocity_old + plane.spin_old.cross(arm)) * (0.5 * step.dt_old);
   path.col(1) = (plane.velocity + plane.spin.cross(arm)) * (0.5 * step.dt);
   return path;
-}
-
-void follow_planes(const Scene& scene, NodesOnPlanes& state) {
-  for (std::size_t k = 0; k < state.numbers.size(); ++k) {
-    state.planes[k] = scene.planes[state.numbers[k]];
-  }
 }
 
 Effect plane_contact_effect() {

@@ -1,7 +1,7 @@
-// Penalty contact with rigid planes. A plane has one side only: whatever is nearer to it than the
-// contact distance is pushed along its normal, however far it went through. Particles that start
-// nearer than half their spacing are pushed from the first step on; ones that start behind a plane
-// are a mistake of the case.
+// Penalty contact of particles with rigid planes (of elements: part_planes.hpp). A plane has one
+// side only: whatever is nearer to it than the contact distance is pushed along its normal, however
+// far it went through. Particles that start nearer than half their spacing are pushed from the
+// first step on; ones that start behind a plane are a mistake of the case.
 #pragma once
 
 #include <deque>
@@ -23,11 +23,10 @@ struct PlaneSums {
   Work put_in = Work::Zero();
 };
 
-/// How nodes meet planes: contact distance and stiffness of a node of mass m, k = rate2 m + fixed.
+/// How particles meet planes: contact distance, and stiffness k = rate2 m.
 struct PlaneLaw {
   double distance = 0;  ///< [m]
   double rate2 = 0;     ///< [1/s^2]
-  double fixed = 0;     ///< [N/m]
 };
 
 /// All particles against all planes.
@@ -42,24 +41,6 @@ struct ParticlesOnPlanes {
   std::vector<Index> n_touching;
 };
 
-/// The nodes of a part (not particles) against some planes.
-struct NodesOnPlanes {
-  std::string name;
-  Location where;
-  int part = -1;
-  std::vector<Plane> planes;
-  std::vector<std::size_t> numbers;  ///< of them in the scene, to follow those that move
-  PlaneLaw law;
-  Array<double> offset;  ///< tracked: stress-free start penetration, planes after planes [m]
-  Array<double> begun;   ///< tracked: 1 after the first level
-  std::vector<PlaneSums> sums;
-};
-
-/// Contacts of parts with planes; scene.store.get<NodesOnPlanesList>().
-struct NodesOnPlanesList {
-  std::deque<NodesOnPlanes> list;
-};
-
 /// Adds f = k p n with p = d - (x - x_plane) . n > 0 to nodes.f of all particles, and sums up what
 /// each plane gets.
 void particles_on_planes(Scene& scene, ParticlesOnPlanes& state);
@@ -69,19 +50,8 @@ void particles_on_planes(Scene& scene, ParticlesOnPlanes& state);
 /// k p^2/2 of the springs: what moves particles without a velocity of their own (XSPH) changes p.
 void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& step);
 
-/// The force of particles_on_planes for the nodes of a part; a node that starts closer than d keeps
-/// the penetration that it started with as a stress-free offset, which shrinks as it moves out.
-void nodes_on_planes(Scene& scene, NodesOnPlanes& state);
-
-/// Work of the planes on the nodes of the part at this level, along the paths of the nodes and
-/// along those of the planes [J].
-PlaneSums work_of_planes(const Scene& scene, const NodesOnPlanes& state, const Step& step);
-
 /// Path of the point of a plane that is at x, as work_path() is that of a node.
 WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step);
-
-/// Takes over where the planes that move are now.
-void follow_planes(const Scene& scene, NodesOnPlanes& state);
 
 /// Step that springs of rate k/m allow beside what else acts on the nodes: 0.4 of 2/sqrt(k/m)
 /// (see contact_step()); no limit for 0.

@@ -386,7 +386,8 @@ output: {until: 10 s, checkpoint: never}
 )case";
 
 /// Two blocks of meshes that do not fit and a sheet over them that touch from the start, slide,
-/// part and meet again: more than one chunk of nodes on each, friction and damping.
+/// part and meet again: more than one chunk of nodes on each, friction and damping. They stand on a
+/// floor that moves, and so does a rigid block.
 inline const std::string blocks_that_meet = R"case(gannet: 1
 materials: {gum: {density: 1100, young: 20 MPa, poisson: 0.4}, alu: {density: 2700, young: 70 GPa, poisson: 0.3}}
 parts:
@@ -402,7 +403,14 @@ parts:
     shell: {material: alu, thickness: 1 mm}
     shape: {plate: {size: [0.15 m, 0.15 m], elements: [17, 19], centre: [0.1 m, 0.07 m, 50.4 mm]}}
     initial_velocity: [0, -5 m/s, -40 m/s]
+  lump:
+    solid: {material: alu}
+    shape: {block: {from: [0.3 m, 0, 0.1 mm], to: [0.4 m, 0.2 m, 40 mm], elements: [10, 20, 4]}}
+bodies: {lump: {parts: lump, velocity: [1 m/s, 0, -3 m/s], angular_velocity: [3 rad/s, 5 rad/s, 2 rad/s]}}
+boundaries: {floor: {planes: {z: 0}, motion: {velocity: ["2*sin(2e4*t)", "1 + 3e3*t", "3*sin(3e4*t)"]}}}
 contacts:
+  on_floor: {between: [low, floor], friction: 0.2, damping: 0.1}
+  landing: {between: [floor, lump], friction: 0.2, damping: 0.1}
   lower: {between: [low, high], friction: 0.3}
   upper: {between: [sheet, high], friction: 0.1, damping: 0.2}
   through: {between: [low, sheet]}

@@ -4,6 +4,8 @@
 
 #include "base/parallel.hpp"
 #include "contact/effects.hpp"
+#include "contact/part_contact.hpp"
+#include "contact/part_planes.hpp"
 #include "scene/particle_material.hpp"
 #include "scenes.hpp"
 
@@ -130,70 +132,93 @@ TEST_CASE("planes: without planes or particles there is no operation", "[contact
   CHECK(scene.measures.empty());
 }
 
-TEST_CASE("planes: shell nodes rest on a plane, start penetration makes no force", "[contact]") {
+namespace {
+
+/// A plate of one element, four nodes of mass 3, thickness 0.02 and E t = 1e5, and a floor.
+struct PlateOnFloor {
   Scene scene;
-  Builder b;
-  b.node_mass = 3;
-  b.shape = [](double x, double y) { return Vec3(x, y, x > 0.5 ? 0.004 : 0.02); };
-  b.fill(scene);
-  NodesOnPlanes c;
-  c.part = 0;
-  c.planes = {{"floor", {0, 0, 0}, {0, 0, 1}, {}}};
-  c.law = {0.01, 0, 1e5};
-  c.offset.assign(4, 0);
-  c.begun.assign(1, 0);
-  c.sums.resize(1);
-  nodes_on_planes(scene, c);
-  CHECK(c.sums[0].force.norm() == 0);
-  CHECK(c.offset[1] == Approx(0.006));
-  scene.nodes.x[0].z = 0.008;
-  scene.nodes.x[1].z = 0.003;
-  nodes_on_planes(scene, c);
-  CHECK(scene.nodes.f[0].z == Approx(200));
-  CHECK(scene.nodes.f[1].z == Approx(100));  // 0.007 less the 0.006 it began with
-  // the first step: f . v dt/2 with v = f/m dt/2
-  scene.nodes.v[0].z = 200.0 / 3 * 1e-3 / 2;  // as after the first kick
-  scene.nodes.v[1].z = 100.0 / 3 * 1e-3 / 2;
-  Step step;
-  step.dt = 1e-3;
-  const Work work = work_of_planes(scene, c, step).work;
-  CHECK(work[0] == 0);  // there is no step before the first level
-  CHECK(work[1] == Approx((200 * 200 + 100 * 100) / 3.0 * 1e-3 / 2 * 1e-3 / 2));
+  PartMeeting meeting;
+  PartOnPlanes* c = nullptr;
+
+  PlateOnFloor(double friction, double z) {
+    Builder b;
+    b.node_mass = 3;
+    b.shape = [z](double x, double y) { return Vec3(x, y, z); };
+    b.fill(scene);
+    scene.planes = {{"floor", {0, 0, 0}, {0, 0, 1}, {}}};
+    c = &make_part_on_planes(scene, "c", 0, {.thickness = 0.02, .young = 5e6}, {0}, friction > 0);
+    c->distance = 0.01;
+    c->law.friction = friction;
+  }
+  void pass(double dt_old = 0) {
+    for (Line& f : scene.nodes.f) f = {};
+    meeting.stiffness.assign(scene.nodes.x.size(), 0);
+    meeting.touched.clear();
+    part_on_planes_pass(scene, *c, {.dt_old = dt_old, .dt = 1e-3}, meeting);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("planes: a plate is pushed out by hand, what it starts with makes no force",
+          "[contact]") {
+  PlateOnFloor p(0, 0.02);
+  p.scene.nodes.x[1].z = 0.004;
+  p.pass();
+  CHECK(p.c->on_planes.norm() == 0);
+  CHECK(p.c->offset[1] == Approx(0.006));
+  CHECK(p.c->numbers[1] == 1);
+  CHECK(p.meeting.touched.empty());
+  p.scene.nodes.x[0].z = 0.008;
+  p.scene.nodes.x[1].z = 0.003;
+  p.pass();
+  // k = 2 * 0.2 E t/A times a quarter of A, but for the little that the face is bent.
+  const double k = 0.4 * 1e5 / 4;
+  CHECK(p.scene.nodes.f[0].z == Approx(k * 0.002).epsilon(1e-3));
+  CHECK(p.scene.nodes.f[1].z == Approx(k * 0.001).epsilon(1e-3));  // less what it began with
+  CHECK(p.c->on_planes.z() == Approx(-k * 0.003).epsilon(1e-3));
+  // A plane does not give way: omega^2 = k/m.
+  CHECK(rate_of(p.scene.nodes, Followers{}, p.meeting).omega2 == Approx(k / 3).epsilon(1e-3));
+}
+
+TEST_CASE("planes: friction sticks below its limit and slips at it", "[contact]") {
+  PlateOnFloor p(0.5, 0.02);
+  p.pass();
+  for (std::size_t i = 0; i < 4; ++i) p.scene.nodes.x[i].z = 0.009;  // 1 mm inside
+  const double k = 0.4 * 1e5 / 4;
+  for (std::size_t i = 0; i < 4; ++i) p.scene.nodes.v[i].x = 0.2;
+  p.pass(1e-3);  // slip 0.2 mm: k 0.2 mm is less than half of k 1 mm
+  CHECK(p.scene.nodes.f[0].x == Approx(-k * 0.2e-3));
+  p.pass(2e-3);  // another 0.4 mm: 0.6 mm is more
+  CHECK(p.scene.nodes.f[0].x == Approx(-0.5 * k * 1e-3));
+  CHECK(p.c->on_planes.x() == Approx(4 * 0.5 * k * 1e-3));
+  for (std::size_t i = 0; i < 4; ++i) p.scene.nodes.x[i].z = 0.02;
+  p.pass(1e-3);
+  CHECK(p.c->tangential[0].x == 0);  // what lets go forgets
 }
 
 TEST_CASE("planes: a moving plane puts in its force along its own path", "[contact]") {
-  Scene scene;
-  Builder b;
-  b.node_mass = 3;
-  b.shape = [](double x, double y) { return Vec3(x, y, 0.02); };
-  b.fill(scene);
-  NodesOnPlanes c;
-  c.part = 0;
-  Plane floor{"floor", {0, 0, 0}, {0, 0, 1}, {}};
+  PlateOnFloor p(0, 0.02);
+  Plane& floor = p.scene.planes[0];
   floor.moves = true;
   floor.velocity = {0, 0, 3};
   floor.velocity_old = {0, 0, 2};
   floor.spin = {0, -5, 0};  // lifts what lies at x > 0
-  scene.planes = {floor};
-  c.planes = {floor};
-  c.numbers = {0};
-  c.law = {0.01, 0, 1e5};
-  c.offset.assign(4, 0);
-  c.begun.assign(1, 0);
-  c.sums.resize(1);
-  nodes_on_planes(scene, c);
-  scene.planes[0].point.z() = 0.015;  // came nearer: 5 mm inside of 10 mm
-  follow_planes(scene, c);
-  nodes_on_planes(scene, c);
+  Ledger ledger;
+  add_part_on_planes(p.scene, *p.c, p.meeting, ledger);
+  p.pass();
+  floor.point.z() = 0.015;  // came nearer: 5 mm inside of 10 mm
+  p.pass();
+  const double f = 0.4 * 1e5 / 4 * 0.005;
   double at_x = 0;
-  for (const Index i : {0, 1, 2, 3}) {
-    CHECK(scene.nodes.f[i].z == Approx(500));
-    at_x += scene.nodes.x[i].x;
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(p.scene.nodes.f[i].z == Approx(f));
+    at_x += p.scene.nodes.x[i].x;
   }
   Step step;
   step.dt_old = 1e-3;
   step.dt = 2e-3;
-  const Work put_in = work_of_planes(scene, c, step).put_in;
-  CHECK(put_in[0] == Approx(4 * 500 * 2 * 0.5e-3));
-  CHECK(put_in[1] == Approx(500 * (4 * 3 + 5 * at_x) * 1e-3));
+  add_work_on_planes(p.scene, *p.c, step);
+  CHECK(p.c->put_in->value == Approx(4 * f * 2 * 0.5e-3));
+  CHECK(p.c->put_in->pending == Approx(f * (4 * 3 + 5 * at_x) * 1e-3));
 }
