@@ -54,6 +54,10 @@ Quaternion section_frame(const Vec3& r, const Vec3& up) {
   return Quaternion(axes);
 }
 
+bool has_left(const BeamBlock& block, std::size_t k) {
+  return !block.gone.empty() && block.gone[k] != 0;
+}
+
 /// Where an element is and what its ends have turned against it.
 struct BeamPose {
   Quaternion frame;
@@ -235,8 +239,26 @@ void load(const double* from, BeamStrain& q, BeamStress& f) {
   }
 }
 
+YieldingBeam yielding(const BeamLaw& law, double l0) {
+  const BeamSection& s = law.section;
+  return {law.yield,
+          s,
+          law.G,
+          l0,
+          shear_ratio(law, s.I_y, s.A_z, l0),
+          shear_ratio(law, s.I_z, s.A_y, l0)};
+}
+
+/// What of element k's fibres and of its elastic part leaves when it breaks in this step.
+double energy_of_break(const YieldingBeam& beam, std::span<const double> states,
+                       const BeamStrain& from, const BeamStrain& to) {
+  const BeamStress f = elastic_part(beam, from);
+  return energy_of(f, from) + work_of(f, {}, from, to) + held_by_fibres(beam, states, from, to);
+}
+
 /// Stress of element k at a strain, fibres taken on; its energies are added to the sums.
-BeamStress section_stress(BeamBlock& block, std::size_t k, const BeamStrain& q, BeamSums& sums) {
+BeamStress section_stress(BeamBlock& block, std::size_t k, const BeamStrain& q, double dt,
+                          BeamSums& sums) {
   const BeamLaw& law = block.law;
   const double l0 = block.l0[k];
   if (!law.yield.yields()) {
@@ -244,26 +266,30 @@ BeamStress section_stress(BeamBlock& block, std::size_t k, const BeamStrain& q, 
     sums.energy += energy_of(f, q);
     return f;
   }
-  const BeamSection& s = law.section;
-  const YieldingBeam beam{law.yield,
-                          s,
-                          law.G,
-                          l0,
-                          shear_ratio(law, s.I_y, s.A_z, l0),
-                          shear_ratio(law, s.I_z, s.A_y, l0)};
-  const std::size_t n = fibre_values(s);
-  double dissipated = 0;
-  const BeamStress f = yielding_stress(beam, q, {block.fibres.data() + n * k, n}, dissipated);
-  BeamStrain q_old;
+  const YieldingBeam beam = yielding(law, l0);
+  const std::size_t n = fibre_values(law.section, law.yield);
+  const std::span<double> states(block.fibres.data() + n * k, n);
+  FibreStep step;
   BeamStress f_old;
-  load(&block.last[14 * k], q_old, f_old);
-  sums.energy += work_of(f_old, f, q_old, q);
-  sums.plastic += dissipated;
+  load(&block.last[14 * k], step.from, f_old);
+  step.inverse_dt = dt > 0 ? 1 / dt : 0;
+  std::vector<double> before;
+  if (law.yield.fails()) before.assign(states.begin(), states.end());
+  BeamStress f = yielding_stress(beam, q, states, step);
+  if (step.broken) {
+    block.gone[k] = 1;
+    f = {};
+    step.plastic = 0;
+    step.eroded = energy_of_break(beam, before, step.from, q);
+  }
+  sums.energy += work_of(f_old, f, step.from, q) - step.eroded;
+  sums.plastic += step.plastic;
+  sums.eroded += step.eroded;
   keep(q, f, &block.last[14 * k]);
   return f;
 }
 
-/// Adds the damping of element k, beta K (q(n) - q(n-1))/dt.
+/// Adds the damping of element k, beta K (q(n) - q(n-1))/dt; of one that has left, nothing.
 void add_damping(BeamBlock& block, std::size_t k, const BeamStrain& q, double dt, BeamStress& f,
                  BeamSums& sums) {
   double* kept = &block.damping_last[14 * k];
@@ -272,7 +298,7 @@ void add_damping(BeamBlock& block, std::size_t k, const BeamStrain& q, double dt
   load(kept, q_old, d_old);
   BeamStress d;
   if (dt > 0) {
-    const double rate = block.damping_time[k] / dt;
+    const double rate = has_left(block, k) ? 0 : block.damping_time[k] / dt;
     d = elastic_stress(block.law, block.l0[k],
                        {rate * (q.u - q_old.u), rate * (q.theta_1 - q_old.theta_1),
                         rate * (q.theta_2 - q_old.theta_2)});
@@ -302,12 +328,12 @@ BeamForces element_forces(BeamBlock& block, std::size_t k, const BeamPose& pose,
   BeamStrain q{pose.l - block.l0[k], pose.theta_1, pose.theta_2};
   BeamStress f;
   if (bits == 0) {
-    f = section_stress(block, k, q, sums);
+    f = section_stress(block, k, q, dt, sums);
     if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
   } else {
     const Releases releases(block.law, block.l0[k], bits);
     releases.reduce(q);
-    f = section_stress(block, k, q, sums);
+    f = section_stress(block, k, q, dt, sums);
     if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
     releases.expand(f);
   }
@@ -319,6 +345,10 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, double dt, Index begin, Index
   BeamSums sums;
   for (Index e = begin; e < end; ++e) {
     const auto k = static_cast<std::size_t>(e);
+    if (has_left(block, k)) {
+      show_forces(block, e, {}, 0);
+      continue;
+    }
     const Index a = block.ends[2 * k];
     const Index b = block.ends[2 * k + 1];
     const auto triad = [&](Index i) -> Quaternion {
@@ -386,8 +416,9 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
   block.energy.assign(1, 0);
   block.forces.assign(6 * n, 0);
   if (law.yield.yields()) {
-    block.fibres.assign(n * fibre_values(law.section), 0);
+    block.fibres.assign(n * fibre_values(law.section, law.yield), 0);
     block.last.assign(14 * n, 0);
+    if (law.yield.fails()) block.gone.assign(n, 0);
   }
   if (law.damping.given()) block.damping_last.assign(14 * n, 0);
   block.colouring = colour_chunks(block.ends, 2, beam_chunk);
@@ -437,13 +468,26 @@ bool release(BeamBlock& block, Index node, unsigned axes) {
 }
 
 void show_plastic_strain(BeamBlock& block) {
-  const std::size_t n = fibre_values(block.law.section);
+  const std::size_t n = fibre_values(block.law.section, block.law.yield);
   block.plastic_shown.assign(block.l0.size(), 0);
   for (std::size_t e = 0; e < block.l0.size(); ++e) {
-    for (std::size_t k = 1; k < n; k += 2) {
+    for (std::size_t k = 1; k < n; k += block.law.yield.n_values()) {
       block.plastic_shown[e] = std::max(block.plastic_shown[e], block.fibres[n * e + k]);
     }
   }
+}
+
+double share_of_failed(const BeamBlock& block, std::size_t e) {
+  const std::size_t n = fibre_values(block.law.section, block.law.yield);
+  std::size_t failed = 0;
+  for (std::size_t k = 3; k < n; k += 4) failed += block.fibres[n * e + k] >= 1 ? 1 : 0;
+  return has_left(block, e) ? 1 : static_cast<double>(4 * failed) / static_cast<double>(n);
+}
+
+void show_damage(BeamBlock& block) {
+  block.damage_shown.resize(block.l0.size());
+  for (std::size_t e = 0; e < block.l0.size(); ++e)
+    block.damage_shown[e] = share_of_failed(block, e);
 }
 
 ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {
@@ -461,6 +505,7 @@ ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {
     energy += s.energy;
     work.plastic += s.plastic;
     work.damping += s.damping;
+    work.eroded += s.eroded;
     if (s.omega2 <= block.omega2) continue;
     block.omega2 = s.omega2;
     block.limiting = s.element;
@@ -472,7 +517,10 @@ ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {
 }
 
 double stable_step(const BeamBlock& block) {
-  return block.law.dt_factor * 2 / std::sqrt(block.omega2);
+  // Where all have left it is that of an element as it was.
+  const double omega2 =
+      block.omega2 > 0 ? block.omega2 : omega2_of(block.law, block.l0[0], block.l0[0], 0);
+  return block.law.dt_factor * 2 / std::sqrt(omega2);
 }
 
 }  // namespace gannet

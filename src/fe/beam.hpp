@@ -51,6 +51,7 @@ struct BeamSums {
   double energy = 0;   ///< strain energy [J], of elements that yield the work of the step
   double plastic = 0;  ///< plastic work of the step [J]
   double damping = 0;  ///< work of damping in the step [J]
+  double eroded = 0;   ///< left with fibres and elements that failed in the step [J]
   double omega2 = 0;   ///< bound of the highest frequency, squared [1/s^2]
   Index element = -1;
 };
@@ -67,8 +68,10 @@ struct BeamBlock {
   std::vector<std::uint8_t> released;
   Array<double> fibres;           ///< fibre_values() an element, where they yield
   Array<double> last;             ///< 14 an element: strain and stress of n-1, where they yield
+  Array<double> damage_shown;     ///< share of the fibres that have failed, by show_damage()
   Array<double> damping_last;     ///< 14: strain and damping forces of n-1, where they are damped
   Array<double> damping_time;     ///< see ElementVotes; none: not damped
+  Array<double> gone;             ///< 1 where an element has left, where fibres may fail
   Array<double> plastic_shown;    ///< largest eps_p of the fibres, by show_plastic_strain()
   Array<double> inverse_mass;     ///< see ElementVotes; none: no mass was added
   Array<double> l0;               ///< unstrained length of each element [m]
@@ -129,6 +132,9 @@ void prepare_damping(BeamBlock& block);
 /// them vanish, and with a released end the other one alone says how the element is turned about
 /// its chord. Returns whether the node is one of the block.
 bool release(BeamBlock& block, Index node, unsigned axes);
+
+/// Fills damage_shown. Needs a law that fails.
+void show_damage(BeamBlock& block);
 
 /// Fills plastic_shown. Needs a law that yields.
 void show_plastic_strain(BeamBlock& block);

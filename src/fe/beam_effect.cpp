@@ -90,23 +90,17 @@ void add_parts(const Keys& root, Draft& draft) {
   }
 }
 
-/// The law of the fibres; says what of the material they do not know.
+/// The law of the fibres.
 UniaxialLaw read_yield(const Keys& beam, const ElasticPlastic& material, const BeamSection& section,
                        Scene& scene) {
   if (!material.plastic()) return {};
-  const auto warn = [&](const char* what) {
-    scene.warnings.push_back(fmt::format("{}: {} '{}'", beam.path(), what, beam.word("material")));
-  };
-  if (section.fibres.empty()) {
-    if (section.A > 0)
-      warn("a section without a shape stays elastic, whatever the yield stress of");
-    return {};
+  if (!section.fibres.empty()) return uniaxial_law(material);
+  if (section.A > 0) {
+    scene.warnings.push_back(fmt::format(
+        "{}: a section without a shape stays elastic, whatever the yield stress of '{}'",
+        beam.path(), beam.word("material")));
   }
-  if (material.rate_law != RateLaw::none || material.heating.specific_heat > 0 ||
-      material.failure.given()) {
-    warn("beams yield by the quasi-static curve: they know neither rate, heat nor failure of");
-  }
-  return uniaxial_law(material);
+  return {};
 }
 
 BeamLaw read_law(const Keys& root, const Keys& beam, Scene& scene) {
@@ -154,7 +148,8 @@ void track(Scene& scene, BeamBlock& block) {
     add(plain_field(block.name + name, "", "", Over::scene, values, static_cast<int>(n),
                     GhostRule::none));
   };
-  per_element(".fibres", block.fibres, fibre_values(block.law.section));
+  per_element(".fibres", block.fibres, fibre_values(block.law.section, block.law.yield));
+  per_element(".gone", block.gone, 1);
   per_element(".last", block.last, 14);
   per_element(".damping", block.damping_last, 14);
   if (block.law.yield.yields()) {
@@ -164,6 +159,18 @@ void track(Scene& scene, BeamBlock& block) {
     shown.owner = "beam";
     shown.prepare = [&block] { show_plastic_strain(block); };
     track_shown(scene, block.part, std::move(shown));
+  }
+  if (!block.gone.empty()) {
+    show_damage(block);
+    Field shown = plain_field(block.name + ".damage", "", "Damage", Over::cells, block.damage_shown,
+                              1, GhostRule::none);
+    shown.owner = "beam";
+    shown.prepare = [&block] { show_damage(block); };
+    track_shown(scene, block.part, std::move(shown));
+    scene.measures.push_back({"beam." + block.name + ".eroded", "", {"value"}, [&block](double* n) {
+                                *n = static_cast<double>(
+                                    std::count(block.gone.begin(), block.gone.end(), 1.0));
+                              }});
   }
   Field forces = plain_field(block.name + ".forces", "N, N m", "SectionForces", Over::cells,
                              block.forces, 6, GhostRule::none);
@@ -235,7 +242,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                      .reads = {"x", "omega"},
                      .writes = {"f", "torque"},
                      .plastic = block.law.yield.yields(),
-                     .damping = block.law.damping.given()};
+                     .damping = block.law.damping.given(),
+                     .eroded = block.law.yield.fails()};
     part.pass = [&scene, &block](const Step& step) {
       return beam_pass(block, scene.nodes, step.dt_old);
     };

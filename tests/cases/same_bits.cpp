@@ -456,6 +456,11 @@ TEST_CASE("same bits: a rope that breaks and a beam, 1, 2, 3 and 5 threads, and 
     if (m.name == "cable.rope.broken") m.sample(&n_broken);
   }
   CHECK(n_broken > 0);
+  double n_left = 0;
+  for (const Measure& m : end->s->scene.measures) {
+    if (m.name == "beam.strut.eroded") m.sample(&n_left);
+  }
+  CHECK(n_left > 0);
 }
 
 TEST_CASE("same bits: mooring lines, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

@@ -319,9 +319,9 @@ output: {until: 10 s, checkpoint: never}
 }
 
 /// A damped rope that swings along itself and breaks in places, and a damped beam with a hinge that
-/// is bent and twisted until it yields: three chunks of each.
+/// is bent and twisted until it yields: three chunks of each; and a strut whose fibres fail.
 inline const std::string rope_and_beam = R"case(gannet: 1
-materials: {iron: {density: 7800, young: 210 GPa, poisson: 0.3, yield_stress: 100 MPa, hardening_modulus: 5 GPa, kinematic_fraction: 0.5}}
+materials: {iron: {density: 7800, young: 210 GPa, poisson: 0.3, yield_stress: 100 MPa, hardening_modulus: 5 GPa, kinematic_fraction: 0.5}, brittle: {density: 7800, young: 210 GPa, poisson: 0.3, johnson_cook: {A: 100 MPa, B: 200 MPa, n: 0.3, C: 0.02, m: 1, melting: 1700 K, specific_heat: 450 J/(kg*K)}, failure: {plastic_strain: 0.01}}}
 parts:
   rope:
     cable: {EA: 1 MN, mass_per_length: 1, damping_ratio: 0.05, damping_time: 1e-7 s, strength: 7 kN, prestrain: 0.001}
@@ -336,6 +336,10 @@ parts:
     shape: {polyline: {points: [[0, 1 m, 0], [3 m, 1 m, 0], [6 m, 1 m, 3 m]], elements: [300, 290]}}
     mass_scaling: {step: 2 us, ceiling: 20 %}
     initial_velocity: ["3*sin(x)", "5*sin(2*x)", "4*cos(7*x)"]
+  strut:
+    beam: {material: brittle, section: {solid_round: {diameter: 20 mm}}}
+    shape: {line: {from: [0, 2 m, 0], to: [6 m, 2 m, 0], elements: 300}}
+    initial_velocity: ["40*sin(9*x)", "20*sin(30*x)", 0]
 boundaries: {clamp: {nodes: {nearest: [0, 1 m, 0], of: beam}, fix: [x, y, z, rx, ry, rz]}}
 output: {until: 10 s, checkpoint: never}
 )case";

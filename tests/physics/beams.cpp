@@ -129,3 +129,34 @@ TEST_CASE("beams: a chain of two bars with a hinge keeps its momenta and energy"
   CHECK(worst < 1e-9);
   CHECK(energy_error(*s) < 2e-3);
 }
+
+TEST_CASE("beams: a bar that is torn breaks, and its energy is accounted for", "[physics]") {
+  // Pulled apart at 20 m/s over 0.5 m from rest: it breaks near its ends, at a plastic strain of
+  // 0.05.
+  const auto s = make_simulation_of_text(
+      "gannet: 1\n"
+      "materials: {steel: {density: 7800, young: 200 GPa, poisson: 0.3, yield_stress: 250 MPa, "
+      "hardening_modulus: 1 GPa, cowper_symonds: {D: 40 1/s, p: 5}, failure: {plastic_strain: "
+      "0.05}}}\n"
+      "parts: {bar: {beam: {material: steel, section: {solid_round: {diameter: 20 mm}}}, shape: "
+      "{line: {from: [0, 0, 0], to: [0.5 m, 0, 0], elements: 20}}}}\n"
+      "boundaries:\n"
+      "  left: {nodes: {nearest: [0, 0, 0], of: bar}, velocity: [-10 m/s, free, free]}\n"
+      "  right: {nodes: {nearest: [0.5 m, 0, 0], of: bar}, velocity: [10 m/s, free, free]}\n"
+      "output: {until: 1 s}\n");
+  double most = 0;
+  const BeamBlock& block = s->scene.store.get<BeamBlocks>().list.front();
+  run_until(*s, 3e-3, [&] { most = std::max(most, block.forces[0]); });
+  const double A = block.law.section.A;
+  const double broken = measured(s->scene, "beam.bar.eroded");
+  fmt::print(
+      "torn bar: {} of 20 broken, largest stress {:.1f} MPa, plastic {:.1f} J, eroded {:.2f} J; "
+      "energy {:.1e}\n",
+      broken, 1e-6 * most / A, ledger_sum(*s, "plastic"), ledger_sum(*s, "eroded"),
+      energy_error(*s));
+  CHECK(broken >= 1);
+  CHECK(broken < 20);
+  CHECK(most / A > 250e6);
+  CHECK(ledger_sum(*s, "eroded") > 0);
+  CHECK(energy_error(*s) < 0.01);
+}

@@ -276,3 +276,125 @@ TEST_CASE("beam: forces and moments balance with yield, damping and hinges", "[f
   CHECK(work.plastic > 0);
   CHECK(work.damping > 0);
 }
+
+TEST_CASE("beam fibres: rate, heat and failure are those of other metals", "[fe]") {
+  // Cowper and Symonds: once all strain is plastic, Y (1 + (rate/D)^(1/p)).
+  ElasticPlastic metal;
+  metal.E = 200e9;
+  metal.nu = 0.3;
+  metal.sigma_y = 200e6;
+  metal.rate_law = RateLaw::cowper_symonds;
+  metal.rate = 40;
+  metal.rate_power = 0.2;
+  metal.failure.strain[0] = 0.05;
+  const UniaxialLaw law = uniaxial_law(metal);
+  REQUIRE(law.full);
+  FibreState state;
+  double lost = 0;
+  double strain = 0;
+  double sigma = 0;
+  for (int k = 0; k < 300; ++k) {  // 100/s
+    strain += 1e-4;
+    sigma = uniaxial_stress(law, strain, state, lost, 1e6);
+  }
+  CHECK(sigma == Approx(200e6 * (1 + std::pow(100.0 / 40, 0.2))).epsilon(1e-8));
+  CHECK(lost == Approx(sigma * 1e-4).epsilon(1e-6));
+  // Slowed down to nothing it comes back to the static yield stress.
+  FibreState slow = state;
+  CHECK(uniaxial_stress(law, strain + 1e-4, slow, lost, 1e-9) == Approx(200e6).epsilon(1e-2));
+  for (int k = 0; k < 300; ++k) {
+    strain += 1e-4;
+    sigma = uniaxial_stress(law, strain, state, lost, 1e6);
+    if (state.accumulated < 0.0499) CHECK(sigma > 200e6);
+  }
+  CHECK(state.damage >= 1);
+  CHECK(sigma == 0);
+  // Johnson and Cook with heat: the state says the stress.
+  metal.rate_law = RateLaw::johnson_cook;
+  metal.rate = 1;
+  metal.rate_power = 0.02;
+  metal.power_factor = 300e6;
+  metal.power = 0.3;
+  metal.rho = 8000;
+  metal.heating.specific_heat = 400;
+  metal.heating.range = 1000;
+  metal.heating.power = 1;
+  metal.heating.fraction = 0.9;
+  metal.failure = {};
+  const UniaxialLaw jc = uniaxial_law(metal);
+  FibreState hot;
+  double heat = 0;
+  for (int k = 1; k <= 1000; ++k) {
+    sigma = uniaxial_stress(jc, 2e-4 * k, hot, lost, 1e6);
+    heat += lost;
+  }
+  CHECK(hot.rise == Approx(0.9 * heat / (8000.0 * 400)).epsilon(1e-12));
+  CHECK(sigma == Approx((200e6 + 300e6 * std::pow(hot.accumulated, 0.3)) *
+                        (1 + 0.02 * std::log(200.0)) * (1 - hot.rise / 1000))
+                     .epsilon(1e-3));
+}
+
+namespace {
+
+BeamLaw brittle(const BeamSection& section) {
+  BeamLaw law = steel(section);
+  ElasticPlastic metal;
+  metal.E = law.E;
+  metal.nu = 0.25;
+  metal.sigma_y = 200e6;
+  metal.failure.strain[0] = 0.02;
+  law.yield = uniaxial_law(metal);
+  return law;
+}
+
+}  // namespace
+
+TEST_CASE("beam: an element pulled until its fibres fail leaves with what it held", "[fe]") {
+  BeamLine m =
+      beams({Vec3(0, 0, 0), Vec3(0.2, 0, 0), Vec3(0.5, 0, 0)}, brittle(round_section(0.02)));
+  ElementWork sum;
+  double work = 0;
+  double force = 0;
+  int k = 0;
+  for (; k < 400 && m.block.gone[0] == 0; ++k) {
+    m.nodes.x[0].x -= 0.2 * 1e-4;
+    clear(m.nodes);
+    const ElementWork w = beam_pass(m.block, m.nodes, 1e-3);
+    const double now = m.nodes.f[0].x;
+    work += 0.5 * (force + now) * 0.2 * 1e-4;
+    force = now;
+    sum.internal += w.internal;
+    sum.plastic += w.plastic;
+    sum.eroded += w.eroded;
+  }
+  // A strain of 0.02 + 0.001 and a step.
+  CHECK(k == Approx(211).margin(2));
+  const double A = m.block.law.section.A;
+  CHECK(force == 0);
+  CHECK(xyz(m.nodes.f[1]).norm() == 0);
+  CHECK(sum.internal + sum.eroded == Approx(work).epsilon(1e-12));
+  CHECK(sum.plastic == Approx(A * 0.2 * 200e6 * 0.02).epsilon(0.01));
+  CHECK(sum.internal == Approx(sum.plastic).epsilon(1e-3));  // nothing elastic is left behind
+  CHECK(sum.eroded == Approx(A * 0.2 * 0.5 * 200e6 * 1e-3).epsilon(0.15));  // and half a step
+  clear(m.nodes);
+  m.nodes.x[0].x -= 0.1;
+  CHECK(beam_pass(m.block, m.nodes, 1e-3).internal == 0);
+  CHECK(m.block.limiting == 1);  // what has left limits no step
+}
+
+TEST_CASE("beam: bent until it breaks, the fibres farthest out fail first", "[fe]") {
+  BeamLine m = beams({Vec3(0, 0, 0), Vec3(0.1, 0, 0)}, brittle(rectangle_section(0.02, 0.04)));
+  ElementWork work;
+  double most = 0;
+  double last = 0;
+  int between = 0;
+  for (int k = 1; k <= 4000 && m.block.gone[0] == 0; ++k) {
+    last = std::abs(bend(m, 2e-3 * (k - 1), 2e-3 * k, work));
+    most = std::max(most, last);
+    show_damage(m.block);
+    if (m.block.damage_shown[0] > 0.1 && m.block.damage_shown[0] < 0.9) ++between;
+  }
+  CHECK(most == Approx(200e6 * 0.02 * 0.04 * 0.04 / 4).epsilon(0.02));
+  CHECK(between > 10);
+  CHECK(last < 0.5 * most);
+}
