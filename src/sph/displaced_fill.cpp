@@ -1,13 +1,10 @@
 // fill.outside: particles stand only where bodies are not. It looks at the parts of the draft once
 // all of them are there, and so stands in the table behind whoever makes them.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 
 #include "base/parallel.hpp"
-#include "mesh/closed_surface.hpp"
-#include "scene/draft.hpp"
+#include "scene/draft_surface.hpp"
 #include "sph/effects.hpp"
 
 namespace gannet {
@@ -20,41 +17,6 @@ Schema schema() {
             .kind = Kind::names,
             .text = "parts that together enclose a volume in which no particles start, nor nearer "
                     "to it than half a spacing"}}};
-}
-
-const PartDraft* find_part(const Draft& draft, const std::string& name) {
-  for (const PartDraft& part : draft.parts) {
-    if (part.name == name) return &part;
-  }
-  return nullptr;
-}
-
-/// Cells that fill a volume; all others are taken as the surface of one.
-bool is_solid(const PartDraft& part, int dimension) {
-  if (part.cell == Cell::tetrahedron || part.cell == Cell::hexahedron) return true;
-  return dimension == 2 && part.cell == Cell::quad;
-}
-
-/// The surface of the named parts; empty after a mistake, which is noted.
-ClosedSurface surface_of(const Keys& fill, const Draft& draft) {
-  ClosedSurface surface{.dimension = draft.dimension};
-  const auto say = [&](const std::string& message) {
-    fill.complain("outside", message);
-    return ClosedSurface{};
-  };
-  for (const std::string& name : fill.words("outside")) {
-    const PartDraft* part = find_part(draft, name);
-    if (part == nullptr) return say(fmt::format("there is no part '{}'", name));
-    const bool in_space = draft.dimension == 3 && part->cell == Cell::line;
-    if (part->cell == Cell::none || in_space) {
-      return say(
-          fmt::format("part '{}' encloses no volume: a closed surface or solids are wanted", name));
-    }
-    add_boundary(part->points, part->connectivity, nodes_per(part->cell),
-                 is_solid(*part, draft.dimension), surface);
-  }
-  const std::string why_not = close_surface(surface);
-  return why_not.empty() ? surface : say(why_not);
 }
 
 /// Removes the points that are inside of the surface or nearer to it than `gap` [m].
@@ -95,7 +57,7 @@ void parts(const Keys& root, Draft& draft) {
     const Keys keys = root.map("parts").map(part.name);
     const Keys fill = keys.map("fill");
     if (part.cell != Cell::none || !fill.has("outside") || part.points.empty()) continue;
-    const ClosedSurface surface = surface_of(fill, draft);
+    const ClosedSurface surface = closed_surface_of(draft, fill.words("outside"), fill, "outside");
     if (surface.facets.empty()) continue;
     clear_inside(surface, 0.5 * spacing_of(root, keys), part.points);
     if (part.points.empty()) fill.complain("outside", "leaves no particle");
