@@ -61,6 +61,10 @@ Schema schema() {
                                .kind = Kind::vector,
                                .unit = dim::angular_velocity,
                                .text = "at the start"},
+                              {.name = "held_until",
+                               .unit = dim::time,
+                               .text = "it stands still up to then, while water around it settles",
+                               .limits = positive()},
                               motion};
   Schema table;
   std::vector<Key> all = body_mass_keys();
@@ -180,6 +184,10 @@ BodyMotion read_motion(const Keys& keys, int dimension, Vec3& v, Vec3& omega) {
   BodyMotion motion;
   read_rates(keys, "velocity", 0, dimension, motion);
   read_rates(keys, "angular_velocity", 3, dimension, motion);
+  motion.held_until = keys.number_or("held_until", 0);
+  if (motion.held_until > 0 && !(v.isZero(0) && omega.isZero(0))) {
+    keys.complain("held_until", "the body stands still at the start: no velocity goes with that");
+  }
   for (std::size_t d = 0; d < 6; ++d) {
     const char* key = d < 3 ? "velocity" : "angular_velocity";
     double& start = (d < 3 ? v : omega)[static_cast<Eigen::Index>(d % 3)];
@@ -188,6 +196,7 @@ BodyMotion read_motion(const Keys& keys, int dimension, Vec3& v, Vec3& omega) {
     }
     if ((motion.mask >> d & 1u) == 0) continue;
     const double given = value_at(motion.rate[d], 0);
+    if (motion.held_until > 0) continue;
     if (keys.given(key) && start != given) {
       keys.complain(key, fmt::format("{} starts at {:g}, but 'motion' gives {:g}", components[d],
                                      start, given));

@@ -51,15 +51,20 @@ void gather(RigidBody& body, Nodes& nodes) {
        "look for forces that grow without bound on its nodes"});
 }
 
+/// Mean of component d of the given motion over a step.
+double given_rate(const RigidBody& body, int d, const Step& step) {
+  if (step.t < body.motion.held_until) return 0;
+  return mean_over(body.motion.rate[static_cast<std::size_t>(d)], step.t, step.t + step.dt);
+}
+
 /// Gives the centre what is given of its velocity, after the free kick.
 void guide_centre(RigidBody& body, Nodes& nodes, const Step& step) {
   const auto c = static_cast<std::size_t>(body.node);
   body.reaction.setZero();
   for (int d = 0; d < 3; ++d) {
-    if ((body.motion.mask >> d & 1u) == 0) continue;
+    if ((body.given >> d & 1u) == 0) continue;
     Vec3 v = xyz(nodes.v[c]);
-    const double wanted =
-        mean_over(body.motion.rate[static_cast<std::size_t>(d)], step.t, step.t + step.dt);
+    const double wanted = given_rate(body, d, step);
     body.reaction[d] = (wanted - v[d]) / (nodes.v[c].w * body.dt_kick);
     v[d] = wanted;
     set_xyz(nodes.v[c], v);
@@ -70,13 +75,12 @@ void guide_centre(RigidBody& body, Nodes& nodes, const Step& step) {
 /// Rotation over the step to come, after L received the moment of the forces.
 FreeRotation turn_body(RigidBody& body, const Quaternion& q, const Step& step) {
   body.couple.setZero();
-  const unsigned mask = body.motion.mask >> 3;
+  const unsigned mask = body.given >> 3;
   if (mask == 0) return rotate_freely(q, body.L, body.inverse_inertia, step.dt);
   Vec3 wanted = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
     if ((mask >> d & 1u) == 0) continue;
-    wanted[d] =
-        mean_over(body.motion.rate[static_cast<std::size_t>(d) + 3], step.t, step.t + step.dt);
+    wanted[d] = given_rate(body, d + 3, step);
   }
   const Vec3 free = body.L;
   const FreeRotation result = rotate_guided(q, body.inertia, mask, wanted, step.dt, body.L);
@@ -87,6 +91,7 @@ FreeRotation turn_body(RigidBody& body, const Quaternion& q, const Step& step) {
 void kick(RigidBody& body, Nodes& nodes, const Step& step) {
   const auto c = static_cast<std::size_t>(body.node);
   body.dt_kick = 0.5 * (step.dt_old + step.dt);
+  body.given = step.t < body.motion.held_until ? 63u : body.motion.mask;
   guide_centre(body, nodes, step);
   body.L += body.dt_kick * body.moment;
   const Quaternion q = quaternion_of(body.q);
@@ -279,7 +284,7 @@ void add_rigid_body_operations(Scene& scene, Model& model, Ledger& ledger, Rigid
   LedgerEntry& energy = ledger.entry("kinetic of rotation", body.name);
   add("energy of rotation", Stage::look,
       [&](const Step& step) { energy.value = rotation_energy(body, step.dt); });
-  if (body.motion.mask != 0) {
+  if (body.motion.any()) {
     LedgerEntry& work = ledger.entry("prescribed motion", body.name);
     work.external = true;
     add("work of the given motion", Stage::look,

@@ -33,6 +33,8 @@ struct BodyMotion {
   unsigned mask = 0;  ///< bit d: component d is given
   std::array<Function, 6> rate;
 };
+  double held_until = 0;  ///< it stands still up to this time [s]
+  [[nodiscard]] bool any() const { return mask != 0 || held_until > 0; }
 
 /// What a rigid body is made from. Positions and velocities are those of the nodes now.
 struct RigidBodyInput {
@@ -62,6 +64,7 @@ struct RigidBody {
   // Within a step:
   Vec3 force = Vec3::Zero();      ///< of all that acts, weight too, at level n [N]
   Vec3 moment = Vec3::Zero();     ///< the same about the centre [N m]
+  unsigned given = 0;             ///< what of `motion` holds in this step
   Vec3 reaction = Vec3::Zero();   ///< force that the given motion takes [N]
   Vec3 couple = Vec3::Zero();     ///< couple that it takes [N m]
   Vec3 torque = Vec3::Zero();     ///< moment + couple [N m]

@@ -34,7 +34,7 @@ Excess excess_of(const Scene& scene, const RigidBody& body) {
 /// reaction has held back the impulses too.
 Vec3 given(const RigidBody& body, unsigned first, Vec3 value) {
   for (unsigned d = 0; d < 3; ++d) {
-    if ((body.motion.mask >> (first + d) & 1u) == 0) value[static_cast<int>(d)] = 0;
+    if ((body.given >> (first + d) & 1u) == 0) value[static_cast<int>(d)] = 0;
   }
   return value;
 }

@@ -153,6 +153,39 @@ TEST_CASE("bodies: motion that is given is followed exactly, whatever the steps"
   CHECK(energy_error(*s) < 1e-3);  // steps of 0.1 s: (omega dt)^2/12 = 3e-3
 }
 
+TEST_CASE("bodies: held until a time, let go into the motion that is given", "[physics]") {
+  const auto s = make_simulation_of_text(R"case(gannet: 1
+parts:
+  skin:
+    rigid_surface: {}
+    shape: {box: {from: [-1, -0.5, -0.25], to: [1, 0.5, 0.25], elements: [2, 1, 1]}})case" +
+                                         clock_part + R"case(
+bodies:
+  top: {parts: skin, density: 800, held_until: 0.3 s, motion: {velocity: [0, free, free], angular_velocity: [free, 0, "2*(t-0.3)"]}}
+loads: {gravity: [0, 0, -9.81 m/s^2]}
+effects: {guards: {energy_error: 100 %}}  # right at the release there is no energy to compare with
+output: {until: 10 s, checkpoint: never}
+)case");
+  double release = -1;
+  double held = 0;
+  run_until(*s, 0.8, [&] {
+    if (release >= 0) return;
+    const double reaction = measured(s->scene, "body.top.reaction", 2);
+    if (reaction == 0) release = time_of(*s) - s->models.list.front().step.dt_old;
+    held = std::max(held, std::abs(reaction - 9.81 * 800));
+    if (release < 0) CHECK(vector_measure(s->scene, "body.top.velocity").norm() == 0);
+  });
+  CHECK(release == Approx(0.3).margin(1e-3));  // the level whose kick was free
+  // Then it falls and turns, at n-1/2 after kicks of dt each from the level of the release.
+  const Vec3 v = xyz(s->scene.nodes.v[static_cast<std::size_t>(body_of(*s).node)]);
+  CHECK((v - Vec3(0, 0, -9.81 * (time_of(*s) - release))).norm() < 1e-9);
+  const double omega = xyz(s->scene.nodes.omega[static_cast<std::size_t>(body_of(*s).node)]).z();
+  CHECK(omega == Approx(2 * (time_of(*s) - 0.3)).margin(2e-3));
+  // Its weight was carried until then; the last value of all is that of the release.
+  CHECK(held == Approx(9.81 * 800));
+  CHECK(energy_error(*s) < 1e-3);
+}
+
 TEST_CASE("bodies: the force that shakes a body is m a, and the couple is I alpha", "[physics]") {
   // x = A sin(w t), about z the angle B sin(w t): R = -m A w^2 sin(w t), C = -Izz B w^2 sin(w t);
   // gravity is carried by the reaction in z.
