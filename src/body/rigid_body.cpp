@@ -25,13 +25,13 @@ Vec3 torque_on_member(const Nodes& nodes, std::size_t i, const Vec3& centre) {
   return torque;
 }
 
-/// Gathers what acts on the members to the centre, in their order.
+/// Gathers what acts on the members to the centre, in their order, and what it carries.
 void gather(RigidBody& body, Nodes& nodes) {
   body.omega_old = xyz(nodes.omega[static_cast<std::size_t>(body.node)]);
   const auto c = static_cast<std::size_t>(body.node);
   const Vec3 centre = xyz(nodes.x[c]);
-  Vec3 force = xyz(nodes.f[c]);
-  Vec3 torque = xyz(nodes.torque[c]);
+  Vec3 force = xyz(nodes.f[c]) + body.carrier->force;
+  Vec3 torque = xyz(nodes.torque[c]) + body.carrier->moment;
   for (const Index member : body.members) {
     const auto i = static_cast<std::size_t>(member);
     force += xyz(nodes.f[i]);
@@ -99,6 +99,8 @@ void kick(RigidBody& body, Nodes& nodes, const Step& step) {
   if (!turn.settled) fail(body, step);
   body.torque = body.moment + body.couple;
   body.q_next = turn.q;
+  body.carrier->q = q;
+  body.carrier->q_next = turn.q;
   set_xyz(nodes.omega[c], turn.omega);
   const Vec3 v_centre = xyz(nodes.v[c]);
   const Mat3 R = q.toRotationMatrix();
@@ -119,6 +121,7 @@ void release_members(const RigidBody& body, Nodes& nodes) {
 
 void place_members(RigidBody& body, Nodes& nodes) {
   body.q = body.q_next.coeffs();
+  body.carrier->q = body.q_next;
   const Mat3 R = body.q_next.toRotationMatrix();
   const Vec3 centre = xyz(nodes.x[static_cast<std::size_t>(body.node)]);
   for (std::size_t k = 0; k < body.members.size(); ++k) {
@@ -143,18 +146,34 @@ void enlist_members(RigidBody& body, Nodes& nodes, const Vec3& omega) {
   }
 }
 
+/// The least principal moment of inertia of a body.
+double softest(const RigidBody& body) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).eigenvalues()[0];
+}
+
 /// Notes whom the members follow, and how easily they are moved.
 void note_followers(Scene& scene, const RigidBody& body, double mass) {
   auto& followers = scene.store.get<Followers>();
   const auto n = static_cast<std::size_t>(scene.nodes.n_owned);
   followers.leader.resize(n, -1);
   followers.inverse_mass.resize(n, 0);
-  const double softest = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).eigenvalues()[0];
+  const double least = softest(body);
   for (std::size_t k = 0; k < body.members.size(); ++k) {
     const auto i = static_cast<std::size_t>(body.members[k]);
     followers.leader[i] = body.node;
-    followers.inverse_mass[i] = 1 / mass + body.arms[k].squaredNorm() / softest;
+    followers.inverse_mass[i] = 1 / mass + body.arms[k].squaredNorm() / least;
   }
+}
+
+/// Lets others see the body.
+void note_carrier(Scene& scene, RigidBody& body, double mass) {
+  body.carrier = &scene.store.get<Carriers>().list.emplace_back(Carrier{.name = body.name});
+  Carrier& c = *body.carrier;
+  c.node = body.node;
+  c.q = c.q_next = quaternion_of(body.q);
+  c.inverse_mass = 1 / mass;
+  c.softest = softest(body);
+  scene.after_restart.emplace_back([&body] { body.carrier->q = quaternion_of(body.q); });
 }
 
 void track(Scene& scene, const std::string& body, const std::string& name, const std::string& unit,
@@ -235,6 +254,7 @@ RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input) {
   nodes.torque[c].w = 0;
   enlist_members(body, nodes, input.omega);
   note_followers(scene, body, input.mass);
+  note_carrier(scene, body, input.mass);
   track(scene, body.name, "q", "", body.q.data(), 4);
   track(scene, body.name, "L", "kg m^2/s", body.L.data(), 3);
   return body;

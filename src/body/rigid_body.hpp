@@ -23,6 +23,7 @@
 #include "base/free_rotation.hpp"
 #include "base/function.hpp"
 #include "plan/plan.hpp"
+#include "scene/carrier.hpp"
 #include "scene/scene.hpp"
 
 namespace gannet {
@@ -32,9 +33,9 @@ namespace gannet {
 struct BodyMotion {
   unsigned mask = 0;  ///< bit d: component d is given
   std::array<Function, 6> rate;
-};
   double held_until = 0;  ///< it stands still up to this time [s]
   [[nodiscard]] bool any() const { return mask != 0 || held_until > 0; }
+};
 
 /// What a rigid body is made from. Positions and velocities are those of the nodes now.
 struct RigidBodyInput {
@@ -58,13 +59,14 @@ struct RigidBody {
   Mat3 inertia;            ///< in the frame of the body [kg m^2]
   Mat3 inverse_inertia;
   BodyMotion motion;
+  Carrier* carrier = nullptr;  ///< what others see of it
   // State, tracked:
   Eigen::Vector4d q;  ///< quaternion x, y, z, w at level n (n+1 after drift)
   Vec3 L;             ///< spatial angular momentum at n-1/2 (n+1/2 after the kick) [kg m^2/s]
   // Within a step:
+  unsigned given = 0;             ///< what of `motion` holds in this step
   Vec3 force = Vec3::Zero();      ///< of all that acts, weight too, at level n [N]
   Vec3 moment = Vec3::Zero();     ///< the same about the centre [N m]
-  unsigned given = 0;             ///< what of `motion` holds in this step
   Vec3 reaction = Vec3::Zero();   ///< force that the given motion takes [N]
   Vec3 couple = Vec3::Zero();     ///< couple that it takes [N m]
   Vec3 torque = Vec3::Zero();     ///< moment + couple [N m]
@@ -92,7 +94,8 @@ FreeRotation rotate_guided(const Quaternion& q, const Mat3& inertia, unsigned ma
 
 /// Makes a body of existing nodes: gives its node mass and velocity, takes mass and inertia from
 /// the members (f does not move them any more), sets velocities and keeps the arms. Tracks q and L
-/// as fields over the scene, "NAME.q" and "NAME.L", and notes in Followers whom the members follow.
+/// as fields over the scene, "NAME.q" and "NAME.L", and notes in Followers whom the members follow,
+/// in Carriers how it moves.
 /// To be called after finish_masses(). Needs mass > 0 and a symmetric, positive definite inertia.
 RigidBody& make_rigid_body(Scene& scene, const RigidBodyInput& input);
 

@@ -20,8 +20,10 @@ Schema schema() {
        {.name = "wall_force",
         .kind = Kind::text,
         .text =
-            "force on a wall (a boundary with planes, one of its planes: basin.z_min, or a "
-            "part of wall particles) or on a part of shells, split into pressure and viscosity"}}};
+            "force on a wall (a boundary with planes, one of its planes: basin.z_min, a part of "
+            "wall "
+            "particles, or a body with dummy walls) or on a part of shells, split into pressure "
+            "and viscosity"}}};
 }
 
 bool is_of_kind(const Scene& scene, const std::string& name, const char* kind) {
@@ -40,7 +42,9 @@ std::vector<std::string> sources_of(const Keys& root, const Scene& scene, const 
     if (is_of_kind(scene, plane.name, "wall")) sources.push_back("wall." + plane.name);
   }
   if (sources.empty() && is_of_kind(scene, name, "wall")) sources.push_back("wall." + name);
-  if (!sources.empty() || scene.part_number(name) < 0 || !root.has("contacts")) return sources;
+  if (!sources.empty()) return sources;
+  if (is_of_kind(scene, "walls." + name, "wall")) sources.push_back("wall." + name);  // of a body
+  if (scene.part_number(name) < 0 || !root.has("contacts")) return sources;
   const Keys contacts = root.map("contacts");
   for (const std::string& contact : contacts.names()) {
     const std::vector<std::string>& sides = contacts.map(contact).words("between");

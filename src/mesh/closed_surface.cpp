@@ -156,19 +156,31 @@ void turn_outwards(ClosedSurface& s, const Edges& edges) {
   }
 }
 
-/// Square of the distance from the origin to the segment from a to b.
-double square_to_segment(const Vec3& a, const Vec3& b) {
+/// The point of the segment from a to b that is nearest to the origin.
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
-  const double t = std::clamp(-a.dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (a + t * d).squaredNorm();
+  return a + std::clamp(-a.dot(d) / d.squaredNorm(), 0.0, 1.0) * d;
 }
 
-/// The same to a triangle: its inside where the origin is above it, else its edges.
-double square_to_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+/// The same on a triangle: below the origin where that is above its inside, else on its edges.
+Vec3 nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
   const auto above = [&](const Vec3& p, const Vec3& q) { return n.dot((q - p).cross(-p)) >= 0; };
-  if (above(a, b) && above(b, c) && above(c, a)) return std::pow(n.dot(a), 2) / n.squaredNorm();
-  return std::min({square_to_segment(a, b), square_to_segment(b, c), square_to_segment(c, a)});
+  if (above(a, b) && above(b, c) && above(c, a)) return n.dot(a) / n.squaredNorm() * n;
+  Vec3 nearest = nearest_on_segment(a, b);
+  for (const Vec3& p : {nearest_on_segment(b, c), nearest_on_segment(c, a)}) {
+    if (p.squaredNorm() < nearest.squaredNorm()) nearest = p;
+  }
+  return nearest;
+}
+
+/// The point of a facet that is nearest to x, from x.
+Vec3 towards_facet(const ClosedSurface& surface, const Facet& f, const Vec3& x) {
+  const auto r = [&](std::size_t c) -> Vec3 {
+    return surface.points[static_cast<std::size_t>(f[c])] - x;
+  };
+  if (surface.dimension == 2) return nearest_on_segment(r(0), r(1));
+  return nearest_on_triangle(r(0), r(1), r(2));
 }
 
 /// Angle that a facet fills around x, as a share of all.
@@ -251,13 +263,17 @@ bool contains(const ClosedSurface& surface, const Vec3& x) {
 double distance(const ClosedSurface& surface, const Vec3& x) {
   double least = std::numeric_limits<double>::infinity();
   for (const Facet& f : surface.facets) {
-    const auto r = [&](std::size_t c) -> Vec3 {
-      return surface.points[static_cast<std::size_t>(f[c])] - x;
-    };
-    least = std::min(least, surface.dimension == 2 ? square_to_segment(r(0), r(1))
-                                                   : square_to_triangle(r(0), r(1), r(2)));
+    least = std::min(least, towards_facet(surface, f, x).squaredNorm());
   }
   return std::sqrt(least);
+}
+
+double distance_to_facet(const ClosedSurface& surface, std::size_t facet, const Vec3& x) {
+  return towards_facet(surface, surface.facets[facet], x).norm();
+}
+
+Vec3 nearest_on_facet(const ClosedSurface& surface, std::size_t facet, const Vec3& x) {
+  return x + towards_facet(surface, surface.facets[facet], x);
 }
 
 VolumeMoments volume_moments(const ClosedSurface& surface) {

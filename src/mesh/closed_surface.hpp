@@ -41,6 +41,12 @@ bool contains(const ClosedSurface& surface, const Vec3& x);
 /// Distance of a point from the nearest facet [m].
 double distance(const ClosedSurface& surface, const Vec3& x);
 
+/// Distance of a point from one facet [m].
+double distance_to_facet(const ClosedSurface& surface, std::size_t facet, const Vec3& x);
+
+/// The point of one facet that is nearest to x.
+Vec3 nearest_on_facet(const ClosedSurface& surface, std::size_t facet, const Vec3& x);
+
 /// Moments of the volume inside (in the plane: of the area, times 1 m).
 struct VolumeMoments {
   double volume = 0;           ///< [m^3]

@@ -46,6 +46,10 @@ Effect xsph_effect();
 /// whose particles they are built around and whose passes they follow.
 Effect walls_effect();
 
+/// bodies.NAME.walls: dummy: such walls inside of rigid bodies. Stands after all that make parts,
+/// and after the bodies: they move first.
+Effect carried_walls_effect();
+
 /// sea: waves that particles start in. Stands after `walls`, whose particles it carries.
 Effect sea_effect();
 

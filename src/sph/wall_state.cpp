@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sph/carried_walls.hpp"
+
 namespace gannet {
 
 namespace {
@@ -29,17 +31,6 @@ double slope_at(const TimeTable& table, double t) {
 Vec3 centre_at(const WallMotion& motion, double t) {
   if (!(t > 0)) return motion.centre;
   return motion.centre + t * mean_over(motion.factor, 0, t) * motion.velocity;
-}
-
-/// Calls f(k, wall) for the particles of walls that are computed.
-template <class F>
-void for_wall_particles(const Walls& walls, const Scene& scene, F&& f) {
-  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k) {
-      const Wall* wall = walls.of(scene, k);
-      if (wall != nullptr) f(k, *wall);
-    }
-  });
 }
 
 /// Calls f(k, wall, sums) for all wall particles that have fluid near.
@@ -134,7 +125,7 @@ void set_dry_values(Walls& walls, SphState& sph, const Scene& scene) {
 }  // namespace
 
 bool moves(const Wall& wall, const Scene& scene) {
-  if (wall.waves) return true;
+  if (wall.waves || wall.on_body) return true;
   return wall.plane >= 0 ? scene.planes[static_cast<std::size_t>(wall.plane)].moves
                          : wall.motion.moves();
 }
@@ -195,10 +186,13 @@ void set_wall_pressure(Walls& walls, SphState& sph, Scene& scene, const Step& st
   view.p = sph.p.data();
   wall_sums(walls.near, walls.clusters, view, scene.dimension, sph.list.radius - sph.skin.width,
             walls.sums);
+  note_ease(walls, scene);
   for_wet_particles(walls, scene, [&](Index k, const Wall& wall, const WallSums& sums) {
     Vec3 g_minus_a = scene.gravity;
     if (wall.waves) {
       g_minus_a -= acceleration_of(*wall.waves, xyz(walls.rest_place[k]), step.t);
+    } else if (wall.carrier != nullptr) {
+      g_minus_a -= acceleration_on_body(wall, scene, xyz(walls.arm[k]));
     } else if (moves(wall, scene)) {
       g_minus_a -= acceleration_at(wall, scene, xyz(view.x[k]), step);
     }
@@ -269,6 +263,7 @@ void kick_walls(Walls& walls, Scene& scene, const Step& step) {
   const auto first = static_cast<std::size_t>(scene.particles.begin);
   Nodes& nodes = scene.nodes;
   for_wall_particles(walls, scene, [&](Index k, const Wall& wall) {
+    if (wall.on_body) return;
     const std::size_t i = first + static_cast<std::size_t>(k);
     const Vec3 f = xyz(nodes.f[i]);
     if (!moves(wall, scene)) {

@@ -7,6 +7,7 @@
 
 #include "base/time_table.hpp"
 #include "plan/plan.hpp"
+#include "scene/carrier.hpp"
 #include "scene/scene.hpp"
 #include "scene/wave_field.hpp"
 #include "sph/sph_state.hpp"
@@ -33,6 +34,17 @@ struct Wall {
   WallMotion motion;
   int plane = -1;  ///< number in scene.planes of the plane that it backs, and whose motion it has
   std::shared_ptr<const WaveField> waves;  ///< whose water it moves as; none: it does not
+  bool on_body = false;                    ///< it rides on the body of its name
+  Carrier* carrier = nullptr;              ///< that body, once it is made
+  // Of a wall on a body, tracked: how the body is taken to accelerate (sph/carried_walls.hpp).
+  Vec3 a = Vec3::Zero();      ///< its centre [m/s^2]
+  Vec3 alpha = Vec3::Zero();  ///< its rotation [rad/s^2]
+  int n_layers = 0;           ///< of particles below the skin
+  // Within a step:
+  double ease = 0;                   ///< sum of 1/M + r^2/I_min over wet particles [1/kg]
+  double share = 0;                  ///< theta
+  Vec3 v_before = Vec3::Zero();      ///< of the centre, before the kick [m/s]
+  Vec3 omega_before = Vec3::Zero();  ///< [rad/s]
   // What the last step says, at level n:
   Vec3 force = Vec3::Zero();          ///< of the fluid on the wall [N]
   Vec3 viscous_force = Vec3::Zero();  ///< the viscous part of it [N]
@@ -66,7 +78,9 @@ struct Walls {
   Array<Line> reaction;    ///< what keeps a particle to the motion of its wall [N]
   Array<double> p_rho2;    ///< tracked: p/rho^2 at level n [m^5/(kg s^2)]
   Array<Line> rest_place;  ///< tracked: X of particles that follow waves [m]; empty without them
-  Array<double> drho_dt;   ///< tracked: that the fluid alone would cause, at n-1/2 [kg/(m^3 s)]
+  Array<Line> arm;        ///< tracked: of particles on bodies, from the centre, in the frame of the
+                          ///< body [m]; empty without them
+  Array<double> drho_dt;  ///< tracked: that the fluid alone would cause, at n-1/2 [kg/(m^3 s)]
 
   /// The wall of particle k; nullptr for fluid.
   [[nodiscard]] const Wall* of(const Scene& scene, Index k) const {
@@ -74,6 +88,17 @@ struct Walls {
     return w < 0 ? nullptr : &list[static_cast<std::size_t>(w)];
   }
 };
+
+/// Calls f(k, wall) for the particles of walls that are computed.
+template <class F>
+void for_wall_particles(const Walls& walls, const Scene& scene, F&& f) {
+  parallel_for(scene.awake().size(), node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const Wall* wall = walls.of(scene, k);
+      if (wall != nullptr) f(k, *wall);
+    }
+  });
+}
 
 /// Whether a wall ever moves.
 bool moves(const Wall& wall, const Scene& scene);
@@ -113,7 +138,8 @@ void set_wall_force(Walls& walls, SphState& sph, Scene& scene);
 /// rates pass.
 void set_wall_rates(Walls& walls, SphState& sph, const Scene& scene);
 
-/// Moves wall particles with their wall, after the free kick: R = (v_w - v)/(dt/m), f += R.
+/// Moves wall particles with their wall, after the free kick: R = (v_w - v)/(dt/m), f += R. Those
+/// on bodies are left to sph/carried_walls.hpp.
 void kick_walls(Walls& walls, Scene& scene, const Step& step);
 
 /// sum m p_w/rho_w^2 drho_w/dt of a wall [W]: what the pressure of the wall takes out of the motion

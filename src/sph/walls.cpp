@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "scene/wave_keys.hpp"
+#include "sph/carried_walls.hpp"
 #include "sph/effects.hpp"
 #include "sph/wall_keys.hpp"
 #include "sph/wall_parts.hpp"
@@ -77,6 +78,7 @@ void read_walls(const Keys& root, const Scene& scene, Walls& walls) {
     }
     walls.list.push_back(std::move(wall));
   }
+  read_carried_walls(root, scene, walls);
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const Plane& plane = scene.planes[k];
     const int part = plane.behind == Behind::dummy ? scene.part_number(plane.name) : -1;
@@ -129,6 +131,7 @@ void make_state(const Keys& root, Scene& scene) {
     sph.rho[k] = eos_of(sph, scene, k).rho0;
     sph.p[k] = eos_of(sph, scene, k).p0;
     const Vec3 x = xyz(scene.nodes.x[i]);
+    if (wall->on_body) continue;
     if (wall->waves) set_xyz(walls.rest_place[k], rest_place_of(*wall->waves, x, 0));
     set_xyz(scene.nodes.v[i], velocity_at_start(*wall, scene, x));
   }
@@ -157,19 +160,27 @@ void add_measures(Scene& scene, const Wall& wall) {
   add("viscous_force", [](const Wall& w) { return w.viscous_force; });
 }
 
+/// The entry for what the motion of a wall takes; none where a body pays for it.
+LedgerEntry* entry_of_motion(const Wall& wall, Ledger& ledger) {
+  if (wall.on_body) return nullptr;
+  LedgerEntry& motion = ledger.entry("wall motion", wall.name);
+  motion.external = true;
+  return &motion;
+}
+
 void add_energy(Walls& walls, const SphState& sph, Scene& scene, Models& models, Plan& plan) {
   for (Wall& wall : walls.list) {
     LedgerEntry& stored = models.ledger.entry("wall", wall.name);
-    LedgerEntry& motion = models.ledger.entry("wall motion", wall.name);
-    motion.external = true;
+    LedgerEntry* motion = entry_of_motion(wall, models.ledger);
     plan.add({.name = "work of wall " + wall.name,
               .reason = asked_for_at(wall.where),
               .stage = Stage::look,
               .reads = {"v", "f"},
-              .run = [&](const Step& step) {
+              .run = [&, motion](const Step& step) {
                 // The half step after the level is added when its rate is known.
                 stored.add_work({0.5 * step.dt_old * wall_power(walls, sph, scene, wall), 0});
-                motion.add_work(work_on(scene, wall, walls.reaction, step));
+                if (motion == nullptr) return;
+                motion->add_work(work_on(scene, wall, walls.reaction, step));
               }});
     plan.add({.name = "energy that wall " + wall.name + " takes",
               .reason = asked_for_at(wall.where),
@@ -212,6 +223,7 @@ void add_operations(const Keys& /*root*/, Scene& scene, Models& models) {
             .reads = {"x", "v", "rho", "p"},
             .writes = {"f"},
             .run = [&](const Step&) { set_wall_force(walls, sph, scene); }});
+  add_gathering(walls, sph, scene, plan);
   plan.add({.name = "motion of walls",
             .reason = reason,
             .stage = Stage::kick,

@@ -88,6 +88,10 @@ Sample tied_sample() {
   return {[] { return std::make_unique<WatchedRun>(tied_parts); }, 150, false};
 }
 
+Sample walled_bodies_sample() {
+  return {[] { return std::make_unique<WatchedRun>(walled_bodies(bodies)); }, 150, false};
+}
+
 Sample moored_sample() {
   return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
 }
@@ -389,6 +393,12 @@ TEST_CASE("same bits: parts tied across models, 1, 2, 3 and 5 threads, and resta
 TEST_CASE("same bits: rigid bodies, 1, 2, 3 and 5 threads, and restarts", "[bits]") {
   check_threads(bodies_sample());
   check_restart(bodies_sample());
+}
+
+TEST_CASE("same bits: bodies with walls of particles, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(walled_bodies_sample());
+  check_restart(walled_bodies_sample());
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

@@ -234,6 +234,16 @@ loads: {gravity: [0, 0, -9.81 m/s^2]}
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// The same without contact: dummy particles back the skin of the box, and water sticks to it.
+inline std::string walled_bodies(std::string text) {
+  const auto put = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  put("density: 400,", "density: 400, walls: dummy, slip: none,");
+  put("contacts: {hull: {between: [pool, box], friction: 0.2}}\n", "");
+  return text;
+}
+
 /// A box that floats askew in a pool of 100 x 30 particles, held by two lines that are tied to it
 /// and advance with it in eight or more substeps a step of the water.
 inline const std::string moored = R"case(gannet: 1

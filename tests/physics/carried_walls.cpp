@@ -1,0 +1,140 @@
+// Bodies whose skin is backed by dummy particles: momentum, energy, buoyancy.
+#include <algorithm>
+
+#include "body/rigid_body.hpp"
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A block of water of 0.3 m x 0.3 m that meets a free box of 0.2 m x 0.1 m off its middle,
+/// without gravity and walls.
+std::string meeting(const char* slip, double density) {
+  return fmt::format(R"case(gannet: 1
+dimension: 2
+materials: {{water: {{density: 1000, c0: 40 m/s}}}}
+parts:
+  water:
+    sph: {{material: water, spacing: 10 mm}}
+    fill: {{box: {{from: [0, 0, 0], to: [0.3 m, 0.3 m, 0]}}}}
+    initial_velocity: [0, 2 m/s, 0]
+  box:
+    rigid_surface: {{}}
+    shape:
+      polyline:
+        points: [[0.12, 0.31, 0], [0.32, 0.33, 0], [0.31, 0.43, 0], [0.11, 0.41, 0], [0.12, 0.31, 0]]
+        elements: [10, 5, 10, 5]
+bodies: {{box: {{parts: box, density: {}, walls: dummy, slip: {}, angular_velocity: [0, 0, 1]}}}}
+effects:
+  viscosity: {{type: monaghan, alpha: 0.1}}
+  xsph: {{epsilon: 0.3}}
+output: {{until: 10 s, checkpoint: never}}
+)case",
+                     density, slip);
+}
+
+/// Linear momentum of all that has a mass, and angular momentum about the origin with the spin of
+/// bodies, at entry to a step.
+struct Momenta {
+  Vec3 linear = Vec3::Zero();
+  Vec3 angular = Vec3::Zero();
+};
+
+Momenta momenta(Simulation& s) {
+  Momenta m{linear_momentum(s.scene).sum, angular_momentum(s.scene).sum};
+  for (const RigidBody& body : s.scene.store.get<RigidBodies>().list) m.angular += body.L;
+  return m;
+}
+
+/// A box of 0.4 m x `draft` + 0.1 m held in still water of 1.2 m x 0.4 m.
+std::string held(double dx, double draft) {
+  return fmt::format(R"case(gannet: 1
+dimension: 2
+let: {{dx: {}, d: {}, B: 0.4 m}}
+materials: {{water: {{density: 1000, c0: 30 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: dx}}
+    fill: {{box: {{from: [-0.6 m, -0.4 m, 0], to: [0.6 m, 0, 0]}}, outside: box}}
+    start: hydrostatic
+  box:
+    rigid_surface: {{}}
+    shape:
+      polyline:
+        points: [["-B/2", "-d", 0], ["B/2", "-d", 0], ["B/2", 0.1, 0], ["-B/2", 0.1, 0], ["-B/2", "-d", 0]]
+        elements: [20, 10, 20, 10]
+bodies: {{box: {{parts: box, density: 500, walls: dummy, motion: {{velocity: [0, 0, 0], angular_velocity: [0, 0, 0]}}}}}}
+boundaries: {{tank: {{planes: {{x: [-0.6 m, 0.6 m], y: -0.4 m}}}}}}
+loads: {{gravity: [0, -9.81 m/s^2, 0]}}
+effects:
+  viscosity: {{type: monaghan, alpha: 0.1}}
+  density_diffusion: {{delta: 0.1}}
+  relaxation: {{rate: 5 1/s, until: 1.5 s}}
+probes:
+  left: {{surface_height: {{at: [-0.5 m]}}}}
+  right: {{surface_height: {{at: [0.5 m]}}}}
+output: {{until: 10 s, checkpoint: never}}
+)case",
+                     dx, draft);
+}
+
+}  // namespace
+
+TEST_CASE("walls on bodies: momentum of water and body is kept to rounding", "[physics]") {
+  for (const char* slip : {"free", "none"}) {
+    const auto s = make_simulation_of_text(meeting(slip, 300));
+    const Momenta start = momenta(*s);
+    const double p_scale = linear_momentum(s->scene).scale;
+    const double L_scale = angular_momentum(s->scene).scale;
+    double worst_p = 0;
+    double worst_L = 0;
+    double most_v = 0;
+    run_until(*s, 0.1, [&] {
+      const Momenta now = momenta(*s);
+      worst_p = std::max(worst_p, (now.linear - start.linear).norm() / p_scale);
+      worst_L = std::max(worst_L, (now.angular - start.angular).norm() / L_scale);
+      most_v = std::max(most_v, measured(s->scene, "body.box.velocity", 1));
+    });
+    fmt::print(
+        "box of walls, slip {}: momentum {:.1e}, angular {:.1e}, energy {:.1e}, box at "
+        "{:.2f} m/s\n",
+        slip, worst_p, worst_L, energy_error(*s), most_v);
+    CHECK(most_v > 1);
+    CHECK(worst_p < 1e-12);
+    CHECK(worst_L < 1e-9);
+    CHECK(energy_error(*s) < 5e-3);
+  }
+}
+
+TEST_CASE("walls on bodies: a body lighter than the water at its skin is pushed, not shaken",
+          "[physics]") {
+  const auto s = make_simulation_of_text(meeting("free", 10));
+  const double speed = 2;  // of the water
+  double most = 0;
+  run_until(*s, 0.1,
+            [&] { most = std::max(most, std::abs(measured(s->scene, "body.box.velocity", 1))); });
+  fmt::print("box of 10 kg/m^3: at most {:.2f} m/s, energy {:.1e}\n", most, energy_error(*s));
+  CHECK(most > 0.9 * speed);
+  CHECK(most < 3 * speed);  // a light box is thrown off by what it compressed
+  CHECK(energy_error(*s) < 1e-2);
+}
+
+TEST_CASE("walls on bodies: a box that is held has the buoyancy of what it displaces",
+          "[physics]") {
+  const auto s = make_simulation_of_text(held(0.02, 0.1));
+  double force = 0;
+  double surface = 0;
+  int n = 0;
+  run_until(*s, 2.5, [&] {
+    if (time_of(*s) < 1.5) return;
+    force += measured(s->scene, "wall.box.force", 1);
+    surface += 0.5 * (measured(s->scene, "probe.left") + measured(s->scene, "probe.right"));
+    ++n;
+  });
+  const double theory = 9810 * 0.4 * (surface / n + 0.1);
+  fmt::print("held box, 20 mm: force {:.2f} N, theory {:.2f} N: {:+.2f} %\n", force / n, theory,
+             100 * (force / n / theory - 1));
+  CHECK(force / n == Approx(theory).epsilon(0.01));
+}
