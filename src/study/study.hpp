@@ -18,6 +18,9 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 struct StudyAxis {
   std::string key;
   std::vector<std::string> values;
+  /// Of variants, which `key` and `values` only name: what each sets, as "key=value". Empty where
+  /// the axis is a key of the case.
+  std::vector<std::vector<std::string>> sets{};
 };
 
 /// What errors are measured against.

@@ -71,7 +71,15 @@ std::vector<std::vector<std::string>> combinations(const std::vector<StudyAxis>&
 std::vector<std::string> overrides_of(const std::vector<StudyAxis>& axes,
                                       const std::vector<std::string>& choices) {
   std::vector<std::string> set;
-  for (std::size_t i = 0; i < axes.size(); ++i) set.push_back(axes[i].key + "=" + choices[i]);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (axes[i].sets.empty()) {
+      set.push_back(axes[i].key + "=" + choices[i]);
+      continue;
+    }
+    const auto at = std::find(axes[i].values.begin(), axes[i].values.end(), choices[i]);
+    const auto& keys = axes[i].sets.at(static_cast<std::size_t>(at - axes[i].values.begin()));
+    set.insert(set.end(), keys.begin(), keys.end());
+  }
   return set;
 }
 

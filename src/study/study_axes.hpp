@@ -17,7 +17,7 @@ StudyAxis parse_axis(const std::string& text);
 /// where there are no axes.
 std::vector<std::vector<std::string>> combinations(const std::vector<StudyAxis>& axes);
 
-/// "key=value" for each axis.
+/// "key=value" for each axis, or what the chosen variant sets.
 std::vector<std::string> overrides_of(const std::vector<StudyAxis>& axes,
                                       const std::vector<std::string>& choices);
 

@@ -39,7 +39,9 @@ Schema study_schema() {
           add({.name = "vary",
                .kind = Kind::map,
                .text = "keys of the case and the values that each takes",
-               .keys = {{.name = "*", .kind = Kind::any, .text = "a list of values"}}}),
+               .keys = {{.name = "*",
+                         .kind = Kind::any,
+                         .text = "a list of values, or variants by name"}}}),
           add({.name = "set",
                .kind = Kind::map,
                .text = "keys of the case and the one value that each has in all runs",
@@ -225,8 +227,24 @@ void read_jitter(const Value& v, const Keys& keys, StudySpec& spec) {
   spec.jitter = keys.quantity(*amount, dim::none);
 }
 
+/// Variants by name, each a map of keys and values.
+StudyAxis variants_of(const Value& v, const Keys& keys) {
+  StudyAxis axis{v.name, {}};
+  for (const Value& variant : v.children) {
+    const bool as_it_is = variant.text == "on" || (variant.is_map && variant.children.empty());
+    if (!variant.is_map && !as_it_is) {
+      keys.complain(variant, "a map of keys and values is wanted, or 'on' for the case as it is");
+    }
+    axis.values.push_back(variant.name);
+    auto& set = axis.sets.emplace_back();
+    for (const Value& key : variant.children) set.push_back(key.name + "=" + value_text(key));
+  }
+  return axis;
+}
+
 StudyAxis axis_of(const Value& v, const Keys& keys) {
   StudyAxis axis{v.name, {}};
+  if (v.is_map) return variants_of(v, keys);
   if (!v.is_list || v.children.empty()) keys.complain(v, "a list of values is wanted");
   for (const Value& item : v.children) axis.values.push_back(value_text(item));
   return axis;

@@ -86,11 +86,15 @@ void complete_keys(const Key& language, const Value& root, StudySpec& spec) {
       return key;
     }
   };
-  for (StudyAxis& axis : spec.axes) axis.key = complete(axis.key);
-  for (std::string& text : spec.set) {
+  const auto complete_setting = [&](std::string& text) {
     const std::size_t equals = std::min(text.find('='), text.size());
     text = complete(text.substr(0, equals)) + text.substr(equals);
+  };
+  for (StudyAxis& axis : spec.axes) {
+    if (axis.sets.empty()) axis.key = complete(axis.key);
+    for (auto& set : axis.sets) std::ranges::for_each(set, complete_setting);
   }
+  for (std::string& text : spec.set) complete_setting(text);
   if (!spec.refine.empty()) spec.refine = complete(spec.refine);
   for (std::size_t i = 0; i < spec.axes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "study/study_axes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace gannet;
@@ -50,6 +51,26 @@ TEST_CASE("study file: what is varied and measured", "[study]") {
   CHECK(spec.repeats == 5);
   CHECK(spec.jitter_part == "pool");
   CHECK(spec.jitter == Approx(0.05));
+}
+
+TEST_CASE("study file: variants set several keys under one name", "[study]") {
+  const auto c = read(
+      "  vary:\n"
+      "    build:\n"
+      "      whole: on\n"
+      "      bare: {parts.frame: off, models.fast.parts: [a, b]}\n"
+      "    models: [on, off]\n");
+  const StudySpec spec = study_of(*c);
+  CHECK(c->mistakes.messages().empty());
+  REQUIRE(spec.axes.size() == 2);
+  CHECK(spec.axes[0].values == std::vector<std::string>{"whole", "bare"});
+  REQUIRE(spec.axes[0].sets.size() == 2);
+  CHECK(overrides_of(spec.axes, {"whole", "off"}) == std::vector<std::string>{"models=off"});
+  CHECK(overrides_of(spec.axes, {"bare", "on"}) ==
+        std::vector<std::string>{"parts.frame=off", "models.fast.parts=[a, b]", "models=on"});
+  const auto wrong = read("  vary: {build: {whole: 3, bare: {}}}\n");
+  (void)study_of(*wrong);
+  CHECK(wrong->mistakes.messages().size() == 1);
 }
 
 TEST_CASE("study file: a formula of t is a history, one without t a number", "[study]") {
