@@ -181,7 +181,7 @@ void check_shapes(const Reading& r, const Scene& scene, const Models& models) {
   for (const Field& f : scene.fields) {
     const std::string key = key_of(shape_of(scene, f));
     const auto it = stored.find(key);
-    const bool may_lack = !models_fit && is_of_link(f.name) && it == stored.end();
+    const bool may_lack = (!models_fit || r.force) && is_of_link(f.name) && it == stored.end();
     if (f.checkpoint && !may_lack) {
       check_field(r, scene, f, it == stored.end() ? nullptr : it->second);
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/bonds.hpp"
+
 namespace gannet {
 
 namespace {
@@ -65,6 +67,11 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
     if (nodes.rotating.contains(i)) set_xyz(link.moment[k], xyz(nodes.torque[i]));
     const Vec3 f = xyz(link.force[k]);
     const Vec3 x = xyz(nodes.x[i]);
+    if (link.held) {
+      link.force_old[k] = link.f_level[k];
+      link.moment_old[k] = link.moment_level[k];
+      set_xyz(link.moment_level[k], xyz(link.moment[k]));
+    }
     link.path[k] = {};
     if (link.slow->step.dt_old > 0) {
       set_xyz(link.path[k], x - xyz(link.x_level[k]));
@@ -79,7 +86,31 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
   give_velocities_back(nodes, link);
 }
 
+/// What a held force, `now` at the last level of the slow model and `before` at the one before it,
+/// is in this kick of the fast model beyond `now`: nothing between levels.
+Vec3 beyond_held(const Link& link, const Vec3& before, const Vec3& now) {
+  if (!same_level(link)) return Vec3::Zero();
+  const Step& fast = link.fast->step;
+  const double dT_old = link.slow->step.dt_old;
+  return (dT_old - fast.dt_old) / (fast.dt_old + fast.dt) * (now - before);
+}
+
+void apply_held(Nodes& nodes, Link& link) {
+  link.ratio = 1;
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Index i = link.nodes[k];
+    const Vec3 f = xyz(link.force[k]);
+    set_xyz(link.beyond[k], beyond_held(link, xyz(link.force_old[k]), f));
+    add_xyz(nodes.f[i], f + xyz(link.beyond[k]));
+    if (!nodes.rotating.contains(i)) continue;
+    const Vec3 moment = xyz(link.moment[k]);
+    set_xyz(link.moment_beyond[k], beyond_held(link, xyz(link.moment_old[k]), moment));
+    add_xyz(nodes.torque[i], moment + xyz(link.moment_beyond[k]));
+  }
+}
+
 void apply(Nodes& nodes, Link& link) {
+  if (link.held) return apply_held(nodes, link);
   link.ratio = 0;
   if (!same_level(link)) return;
   const Step& slow = link.slow->step;
@@ -92,9 +123,20 @@ void apply(Nodes& nodes, Link& link) {
   }
 }
 
+/// Takes off the work of held forces, which act at every level of the fast model.
+void measure_held(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
+  Work work = Work::Zero();
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    const Vec3 f = xyz(link.force[k]) + xyz(link.beyond[k]);
+    work += work_along(work_path(nodes, link.nodes[k], link.fast->step), f);
+  }
+  entry.add_work(-work);
+}
+
 /// Takes off the work of the impulses at a coinciding level. The kinetic energy at level n is taken
 /// in the middle of the kick, so the impulse counts half before the level and half after it.
 void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
+  if (link.held) return measure_held(nodes, link, entry);
   if (!same_level(link)) return;
   const Step& slow = link.slow->step;
   double work = 0;
@@ -111,6 +153,14 @@ void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
 
 }  // namespace
 
+namespace {
+
+Vec3 excess_at(const Link& link, std::size_t k) {
+  return link.held ? xyz(link.beyond[k]) : (link.ratio - 1) * xyz(link.force[k]);
+}
+
+}  // namespace
+
 Excess excess_of_impulses(const Scene& scene, const Vec3& about,
                           const std::function<bool(Index)>& counts) {
   Excess excess;
@@ -121,10 +171,11 @@ Excess excess_of_impulses(const Scene& scene, const Vec3& about,
     for (std::size_t k = 0; k < link->nodes.size(); ++k) {
       const Index i = link->nodes[k];
       if (!counts(i)) continue;
-      const Vec3 f = (link->ratio - 1) * xyz(link->force[k]);
+      const Vec3 f = excess_at(*link, k);
       const Vec3 arm = xyz(scene.nodes.x[static_cast<std::size_t>(i)]) - about;
       excess.force += f;
-      excess.moment += arm.cross(f) + (link->ratio - 1) * xyz(link->moment[k]);
+      excess.moment += arm.cross(f) + (link->held ? xyz(link->moment_beyond[k])
+                                                  : (link->ratio - 1) * xyz(link->moment[k]));
     }
   }
   return excess;
@@ -135,13 +186,23 @@ Vec3 excess_on_node(const Scene& scene, Index node) {
   const Links* links = scene.store.find<Links>();
   if (links == nullptr) return excess;
   for (const Link* link : links->list) {
-    const auto found = std::lower_bound(link->nodes.begin(), link->nodes.end(), node);
-    if (found == link->nodes.end() || *found != node) continue;
-    excess +=
-        (link->ratio - 1) * xyz(link->force[static_cast<std::size_t>(found - link->nodes.begin())]);
+    const auto found = std::lower_bound(link->places.begin(), link->places.end(),
+                                        std::pair<Index, std::size_t>{node, 0});
+    if (found == link->places.end() || found->first != node) continue;
+    excess += excess_at(*link, found->second);
   }
   return excess;
 }
+
+namespace {
+
+bool holds_forces(const Scene& scene, const Model& fast) {
+  const Bonds* bonds = scene.store.find<Bonds>();
+  return bonds != nullptr &&
+         std::find(bonds->holding.begin(), bonds->holding.end(), fast.name) != bonds->holding.end();
+}
+
+}  // namespace
 
 void open_link(Scene& scene, Link& link) {
   scene.store.get<Links>().list.push_back(&link);
@@ -159,6 +220,16 @@ void open_link(Scene& scene, Link& link) {
   };
   track("x_level", "m", link.x_level);
   track("f_level", "N", link.f_level);
+  for (std::size_t k = 0; k < n; ++k) link.places.emplace_back(link.nodes[k], k);
+  std::sort(link.places.begin(), link.places.end());
+  link.held = !link.of_elements && holds_forces(scene, *link.fast);
+  if (link.held) {
+    for (Array<Line>* lines : {&link.force_old, &link.moment_old, &link.beyond, &link.moment_beyond,
+                               &link.moment_level}) {
+      lines->assign(n, {});
+    }
+    track("moment_level", "N m", link.moment_level);
+  }
   if (link.of_elements) {
     for (Array<Line>* lines : {&link.moment_level, &link.turned, &link.v_kept, &link.omega_kept}) {
       lines->assign(n, {});

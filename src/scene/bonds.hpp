@@ -20,6 +20,8 @@ struct Bonds {
   /// By part the place in Models::list of the model that computes its elements; empty where there
   /// is one model. Nodes of the part that a bond holds may advance in a faster one.
   std::vector<std::size_t> model_of_part;
+  /// Names of models that hold the forces of slower ones through their substeps (plan/link.hpp).
+  std::vector<std::string> holding;
 };
 
 }  // namespace gannet

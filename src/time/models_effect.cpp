@@ -16,17 +16,25 @@ namespace gannet {
 namespace {
 
 Schema schema() {
-  return {{"",
-           {.name = "models",
-            .kind = Kind::map,
-            .text = "parts at steps of their own, or auto",
-            .choices = {"auto"}}},
-          {"models.*",
-           {.name = "parts",
-            .kind = Kind::names,
-            .text = "parts and bodies that advance together, at a step of their own; the slowest "
-                    "model comes first, and has what none names",
-            .required = true}}};
+  return {
+      {"",
+       {.name = "models",
+        .kind = Kind::map,
+        .text = "parts at steps of their own, or auto",
+        .choices = {"auto"}}},
+      {"models.*",
+       {.name = "parts",
+        .kind = Kind::names,
+        .text = "parts and bodies that advance together, at a step of their own; the slowest "
+                "model comes first, and has what none names",
+        .required = true}},
+      {"models.*",
+       {.name = "slow_forces",
+        .kind = Kind::choice,
+        .text = "how forces of slower models act on its bodies: as impulses once a step of the "
+                "slower one, or held through its substeps, which is smooth and for heavy bodies",
+        .fallback = "impulses",
+        .choices = {"impulses", "held"}}}};
 }
 
 constexpr int nowhere = -1;
@@ -221,6 +229,7 @@ void make_models(const Keys& root, Scene& scene, Models& models) {
     Model& model = models.list.emplace_back();
     model.name = one.name();
     model.ranges = ranges_of(division, number++);
+    if (one.word("slow_forces") == "held") scene.store.get<Bonds>().holding.push_back(model.name);
     if (model.ranges.empty()) one.complain("parts", "no nodes are left for this model");
   }
   note_models_of_parts(scene, division);

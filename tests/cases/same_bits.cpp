@@ -96,6 +96,13 @@ Sample moored_sample() {
   return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
 }
 
+Sample held_sample() {
+  std::string text = moored;
+  const std::string lines = "lines: {parts: [left, right]}";
+  text.replace(text.find(lines), lines.size(), "lines: {parts: [left, right], slow_forces: held}");
+  return {[text] { return std::make_unique<WatchedRun>(text); }, 150, false};
+}
+
 Sample solids_sample(const std::string& formulation) {
   std::vector<std::string> set = small_bar;
   set.push_back("parts.rod.solid.formulation=" + formulation);
@@ -383,6 +390,12 @@ TEST_CASE("same bits: models at steps of their own, 1, 2, 3 and 5 threads, and r
           "[bits]") {
   check_threads(moored_sample());
   check_restart(moored_sample());
+}
+
+TEST_CASE("same bits: forces held through substeps, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(held_sample());
+  check_restart(held_sample());
 }
 
 TEST_CASE("same bits: parts tied across models, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

@@ -123,6 +123,40 @@ TEST_CASE("models: a moored box moves as in one model", "[physics]") {
   CHECK(energy_error(*two) < 2e-3);
 }
 
+TEST_CASE("models: held, slow forces move a body as impulses do, without the jolts", "[physics]") {
+  std::string text = moored(true);
+  text.replace(text.find("parts: [left, right]}"), 21, "parts: [left, right], slow_forces: held}");
+  const auto held = make_simulation_of_text(text);
+  const auto one = make_simulation_of_text(moored(false));
+  const Scene& scene = held->scene;
+  const int number = scene.part_number("body.box");
+  const auto body =
+      static_cast<std::size_t>(scene.parts[static_cast<std::size_t>(number)].nodes.begin);
+  double last = scene.nodes.v[body].y;
+  double jump = 0;
+  held->models.list.back().plan.add(
+      {.name = "watch", .stage = Stage::look, .run = [&](const Step& step) {
+         if (step.t > 0.1) jump = std::max(jump, std::abs(scene.nodes.v[body].y - last));
+         last = scene.nodes.v[body].y;
+       }});
+  double worst = 0;
+  double range = 0;
+  for (double t = 0.05; t < 0.5; t += 0.05) {
+    run_to(*one, t);
+    run_to(*held, one->models.list.front().step.t);
+    worst = std::max(worst, std::abs(height_of_body(*held) - height_of_body(*one)));
+    range = std::max(range, std::abs(height_of_body(*one) - 0.02));
+  }
+  const double dT = held->models.list.front().step.dt_old;
+  fmt::print(
+      "held: height differs by {:.2g} of {:.3g} m, largest jump {:.2g} of g dT, link {:.2g} J, "
+      "energy {:.2g}\n",
+      worst, range, jump / (9.81 * dT), ledger_sum(*held, "link"), energy_error(*held));
+  CHECK(worst < 0.03 * range);
+  CHECK(jump < 0.2 * 9.81 * dT);  // 0.43 with impulses
+  CHECK(energy_error(*held) < 2e-3);
+}
+
 TEST_CASE("models: auto groups parts by the steps that they allow", "[physics]") {
   std::string text = moored(true);
   const std::string given = "models: {water: {parts: pool}, lines: {parts: [left, right]}}";
