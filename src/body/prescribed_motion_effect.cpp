@@ -9,6 +9,7 @@
 #include "body/prescribed_motion.hpp"
 #include "scene/followers.hpp"
 #include "scene/given_rotations.hpp"
+#include "scene/given_velocities.hpp"
 #include "scene/node_set.hpp"
 
 namespace gannet {
@@ -142,6 +143,10 @@ void read_motion(const Keys& boundary, Scene& scene, Owners& owners) {
   PrescribedMotion& kept =
       scene.store.get<PrescribedMotions>().list.emplace_back(std::move(motion));
   claim(boundary, sources, scene, owners, kept);
+  auto& given = scene.store.get<GivenVelocities>().masks;
+  for (std::size_t k = 0; k < kept.mask.size(); ++k) {
+    if ((kept.mask[k] & 7u) != 0) given[kept.nodes[k]] |= kept.mask[k] & 7u;
+  }
   // After a complaint the masks are short and nothing will run.
   if (kept.mask.size() == kept.nodes.size()) set_velocities(kept, scene.nodes, 0);
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "plan/effect.hpp"
+#include "scene/given_velocities.hpp"
 
 namespace gannet {
 
@@ -24,13 +25,25 @@ Vec3 mean_of(const TiedNode& row, const Array<Line>& a) {
   return sum;
 }
 
-/// Gives a share of a mass to a corner that moves at v_c; it moves at v.
-void add_mass(Nodes& nodes, std::size_t c, double m, const Vec3& v) {
+/// `value` without the components of a node's velocity that are given.
+Vec3 free_part(const Scene& scene, std::size_t node, Vec3 value) {
+  const GivenVelocities* given = scene.store.find<GivenVelocities>();
+  const unsigned mask = given == nullptr ? 0 : given->mask_of(static_cast<Index>(node));
+  for (unsigned d = 0; d < 3; ++d) {
+    if ((mask >> d & 1u) != 0) value[d] = 0;
+  }
+  return value;
+}
+
+/// Gives a share of a mass to a corner that moves at v_c; it moves at v. What is given of v_c
+/// stays.
+void add_mass(Scene& scene, std::size_t c, double m, const Vec3& v) {
+  Nodes& nodes = scene.nodes;
   const double all = nodes.x[c].w + m;
-  const Vec3 p = nodes.x[c].w * xyz(nodes.v[c]) + m * v;
+  const Vec3 p = m * (v - xyz(nodes.v[c]));
   nodes.x[c].w = all;
   nodes.v[c].w = all > 0 ? 1 / all : 0;
-  if (all > 0) set_xyz(nodes.v[c], p / all);
+  if (all > 0) add_xyz(nodes.v[c], free_part(scene, c, p / all));
 }
 
 void add_inertia(Nodes& nodes, std::size_t c, double I) {
@@ -48,36 +61,32 @@ Vec3 pull_of(const PartTie& tie, const Scene& scene) {
   return pull;
 }
 
-/// sum_s m_s a_s, from forces on the corners that hold those of the tied nodes at this level.
-Vec3 inertia_of(const PartTie& tie, const Scene& scene) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t s = 0; s < tie.rows.size(); ++s) {
-    for_corners(tie.rows[s], [&](std::size_t c, double N) {
-      const Vec3 f = xyz(scene.nodes.f[c]) - excess_on_node(scene, static_cast<Index>(c));
-      sum += tie.mass[s] * N * scene.nodes.v[c].w * f;
-    });
-  }
-  return sum;
-}
-
-/// Adds `sign` times the forces at this level to the corners.
-void spread_forces(const PartTie& tie, Scene& scene, double sign) {
+/// Adds what acts on the tied nodes to the corners, and notes there how far it is more than the
+/// forces at this level.
+void spread_forces(const PartTie& tie, Scene& scene, Impulses& impulses) {
   Nodes& nodes = scene.nodes;
   for (const TiedNode& row : tie.rows) {
-    const Vec3 f = sign * (xyz(nodes.f[at(row.node)]) - excess_on_node(scene, row.node));
+    const Vec3 f = xyz(nodes.f[at(row.node)]);
     for_corners(row, [&](std::size_t c, double N) { add_xyz(nodes.f[c], N * f); });
+    const Vec3 excess = excess_on_node(scene, row.node);
+    if (!excess.isZero(0)) {
+      for_corners(row, [&](std::size_t c, double N) { impulses.add(c, N * excess); });
+    }
     if (!row.turns) continue;
-    const Vec3 torque = sign * xyz(nodes.torque[at(row.node)]);
+    const Vec3 torque = xyz(nodes.torque[at(row.node)]);
     for_corners(row, [&](std::size_t c, double N) { add_xyz(nodes.torque[c], N * torque); });
   }
 }
 
-/// Adds what impulses of links are beyond these forces.
-void spread_excess(const PartTie& tie, Scene& scene) {
-  for (const TiedNode& row : tie.rows) {
-    const Vec3 f = excess_on_node(scene, row.node);
-    for_corners(row, [&](std::size_t c, double N) { add_xyz(scene.nodes.f[c], N * f); });
-  }
+/// What impulses of links add to the acceleration of a tied node, beyond the forces that they stand
+/// for. Where velocities are given they add nothing.
+Vec3 jolt_of(const TiedNode& row, const Scene& scene, const Impulses& impulses) {
+  Vec3 sum = Vec3::Zero();
+  for_corners(row, [&](std::size_t c, double N) {
+    const Vec3 excess = excess_on_node(scene, static_cast<Index>(c)) + impulses.at(c);
+    sum += N * scene.nodes.v[c].w * free_part(scene, c, excess);
+  });
+  return sum;
 }
 
 /// Gives the nodes their masses back. The kinetic energy of a mass at the corners less that of the
@@ -103,7 +112,16 @@ void let_go(PartTie& tie, Nodes& nodes, Followers& followers) {
   tie.force.setZero();
 }
 
-void release(const PartTie& tie, Nodes& nodes) {
+/// Tied nodes are not kicked; a tie that carried too much lets go.
+void release(PartTie& tie, Scene& scene, Impulses& impulses) {
+  if (!tie.holds()) return;
+  Nodes& nodes = scene.nodes;
+  for (const TiedNode& row : tie.rows) {
+    for_corners(row, [&](std::size_t c, double) { impulses.clear(c); });
+  }
+  if (tie.breaks_at > 0 && tie.force.norm() > tie.breaks_at) {
+    return let_go(tie, nodes, scene.store.get<Followers>());
+  }
   for (const TiedNode& row : tie.rows) nodes.v[at(row.node)].w = 0;
 }
 
@@ -113,10 +131,8 @@ void place(const PartTie& tie, Nodes& nodes) {
 
 }  // namespace
 
-void take_masses(PartTie& tie, Nodes& nodes, Followers& followers) {
-  const auto n = static_cast<std::size_t>(nodes.n_owned);
-  followers.leader.resize(n, -1);
-  followers.inverse_mass.resize(n, 0);
+void take_masses(PartTie& tie, Scene& scene) {
+  Nodes& nodes = scene.nodes;
   tie.mass.assign(tie.rows.size(), 0);
   tie.inertia.assign(tie.rows.size(), 0);
   tie.broken.assign(1, 0);
@@ -125,7 +141,7 @@ void take_masses(PartTie& tie, Nodes& nodes, Followers& followers) {
     const auto i = at(row.node);
     tie.mass[s] = nodes.x[i].w;
     const Vec3 v = xyz(nodes.v[i]);
-    for_corners(row, [&](std::size_t c, double N) { add_mass(nodes, c, N * tie.mass[s], v); });
+    for_corners(row, [&](std::size_t c, double N) { add_mass(scene, c, N * tie.mass[s], v); });
     nodes.x[i].w = 0;
     nodes.v[i].w = 0;
     if (!row.turns) continue;
@@ -134,6 +150,12 @@ void take_masses(PartTie& tie, Nodes& nodes, Followers& followers) {
     nodes.torque[i].w = 0;
     nodes.omega[i].w = 0;
   }
+}
+
+void start_tied(const PartTie& tie, Nodes& nodes, Followers& followers) {
+  const auto n = static_cast<std::size_t>(nodes.n_owned);
+  followers.leader.resize(n, -1);
+  followers.inverse_mass.resize(n, 0);
   for (const TiedNode& row : tie.rows) {
     const auto i = at(row.node);
     set_xyz(nodes.v[i], mean_of(row, nodes.v));
@@ -146,25 +168,23 @@ void take_masses(PartTie& tie, Nodes& nodes, Followers& followers) {
   }
 }
 
-void gather_tie(PartTie& tie, Scene& scene) {
+void gather_tie(PartTie& tie, Scene& scene, Impulses& impulses) {
   if (!tie.holds()) return;
   tie.force = pull_of(tie, scene);
-  spread_forces(tie, scene, 1);
-  tie.force -= inertia_of(tie, scene);
-  if (tie.breaks_at > 0 && tie.force.norm() > tie.breaks_at) {
-    spread_forces(tie, scene, -1);
-    return let_go(tie, scene.nodes, scene.store.get<Followers>());
-  }
-  spread_excess(tie, scene);
+  spread_forces(tie, scene, impulses);
 }
 
-void follow_corners(PartTie& tie, Nodes& nodes, const Step& step) {
+void follow_corners(PartTie& tie, Scene& scene, const Impulses& impulses, const Step& step) {
   if (!tie.holds()) return;
+  Nodes& nodes = scene.nodes;
   const double kick = 0.5 * (step.dt_old + step.dt);
-  for (const TiedNode& row : tie.rows) {
+  for (std::size_t s = 0; s < tie.rows.size(); ++s) {
+    const TiedNode& row = tie.rows[s];
     const auto i = at(row.node);
     const Vec3 v = mean_of(row, nodes.v);
-    set_xyz(nodes.f[i], (v - xyz(nodes.v[i])) / kick);
+    const Vec3 a = (v - xyz(nodes.v[i])) / kick;
+    tie.force -= tie.mass[s] * (a - jolt_of(row, scene, impulses));
+    set_xyz(nodes.f[i], a);
     nodes.v[i] = {v.x(), v.y(), v.z(), 1};
     if (row.turns) set_xyz(nodes.omega[i], mean_of(row, nodes.omega));
   }
@@ -172,6 +192,7 @@ void follow_corners(PartTie& tie, Nodes& nodes, const Step& step) {
 
 void add_tie_operations(Scene& scene, Model& model, Ledger& ledger, PartTie& tie) {
   Nodes& nodes = scene.nodes;
+  Impulses& impulses = scene.store.get<PartTies>().impulses;
   tie.lost = &ledger.entry("tie", tie.name);
   const auto add = [&](const char* what, Stage stage, std::vector<std::string> reads,
                        std::vector<std::string> writes, std::function<void(const Step&)> run) {
@@ -183,12 +204,10 @@ void add_tie_operations(Scene& scene, Model& model, Ledger& ledger, PartTie& tie
                     .run = std::move(run)});
   };
   add("forces", Stage::accelerate, {"f"}, {"f", "torque"},
-      [&](const Step&) { gather_tie(tie, scene); });
+      [&](const Step&) { gather_tie(tie, scene, impulses); });
   add("velocities", Stage::kick, {"v", "omega"}, {"v", "f", "omega"},
-      [&](const Step& step) { follow_corners(tie, nodes, step); });
-  add("release", Stage::half_drift, {}, {"v"}, [&](const Step&) {
-    if (tie.holds()) release(tie, nodes);
-  });
+      [&](const Step& step) { follow_corners(tie, scene, impulses, step); });
+  add("release", Stage::half_drift, {}, {"v"}, [&](const Step&) { release(tie, scene, impulses); });
   add("places", Stage::drift, {"x"}, {"x"}, [&](const Step&) {
     if (tie.holds()) place(tie, nodes);
   });

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <deque>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,29 +43,52 @@ struct PartTie {
   [[nodiscard]] bool holds() const { return broken.empty() || broken[0] == 0; }
 };
 
+/// What tied nodes hand to corners at this level beyond the forces that act there [N], as impulses
+/// of links are. Corners may be shared by ties.
+struct Impulses {
+  std::map<std::size_t, Vec3> of_corner;
+
+  void add(std::size_t c, const Vec3& f) {
+    of_corner.try_emplace(c, Vec3::Zero()).first->second += f;
+  }
+  void clear(std::size_t c) { of_corner.erase(c); }
+  [[nodiscard]] Vec3 at(std::size_t c) const {
+    const auto found = of_corner.find(c);
+    return found == of_corner.end() ? Vec3(Vec3::Zero()) : found->second;
+  }
+};
+
 /// All such ties of a scene, and the links of those between models: scene.store.get<PartTies>().
 struct PartTies {
   std::deque<PartTie> list;
   std::deque<Link> links;
+  Impulses impulses;
 };
 
 /// Moves the masses m_s (and, where both sides turn, rotary inertias) of tied nodes to the corners,
 /// N_k m_s each: the lumped form of the mass that moves with them, so that no frequency of either
-/// mesh rises. The corners start at the mean velocity of what they carry, which keeps momentum.
-/// Notes in `followers` what pushes at a tied node. Needs the masses of all parts in the node
-/// table.
-void take_masses(PartTie& tie, Nodes& nodes, Followers& followers);
+/// mesh rises. The corners start at the mean velocity of what they carry, which keeps momentum,
+/// but for components that are given. Needs the masses of all parts in the node table.
+void take_masses(PartTie& tie, Scene& scene);
+
+/// Gives the tied nodes the motion of their corners, and notes in `followers` what pushes at one.
+/// Needs the masses of all ties on the corners.
+void start_tied(const PartTie& tie, Nodes& nodes, Followers& followers);
 
 /// At level n, when all forces are in f: puts the forces of tied nodes on the corners,
 ///   f_k += N_k f_s,   torque_k += N_k torque_s
-/// which keeps momentum and, since x_s = sum N_k x_k, angular momentum to rounding. Notes the force
-/// of the tie, R = sum_s (f_s + m_s g - m_s a_s), where the impulses of links count as the forces
-/// that they stand for. A tie whose |R| exceeds breaks_at lets go before it takes effect.
-void gather_tie(PartTie& tie, Scene& scene);
+/// which keeps momentum and, since x_s = sum N_k x_k, angular momentum to rounding. The force of
+/// the tie is sum_s (f_s + m_s g) so far, where the impulses of links count as the forces that they
+/// stand for; what they are beyond those goes to `impulses`.
+void gather_tie(PartTie& tie, Scene& scene, Impulses& impulses);
 
-/// After the kick: v_s = sum N_k v_k, omega_s likewise; f_s becomes the acceleration of the node
-/// and its 1/m one, as of members of rigid bodies, so that work is seen as on any node.
-void follow_corners(PartTie& tie, Nodes& nodes, const Step& step);
+/// After the kick and what boundaries hold back in it, when the forces of all ties are gathered:
+/// v_s = sum N_k v_k, omega_s likewise; f_s becomes the acceleration of the node and its 1/m one,
+/// as of members of rigid bodies, so that work is seen as on any node. The force of the tie is now
+///   R = sum_s (f_s + m_s g - m_s a_s),   a_s = (v_s(n+1/2) - v_s(n-1/2)) / ((dt_old + dt)/2)
+/// with a_s as the nodes really get it, less what `impulses` add. A tie whose |R| exceeds
+/// breaks_at lets go after level n has been looked at.
+void follow_corners(PartTie& tie, Scene& scene, const Impulses& impulses, const Step& step);
 
 /// Adds the operations of the tie to the model that its nodes advance in.
 void add_tie_operations(Scene& scene, Model& model, Ledger& ledger, PartTie& tie);

@@ -226,7 +226,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   auto& followers = scene.store.get<Followers>();
   for (PartTie& tie : all.list) {
     check_parts(root.map("ties").map(tie.name), root, scene, models, tie);
-    take_masses(tie, scene.nodes, followers);
+    take_masses(tie, scene);
     Field broken = plain_field("tie." + tie.name + ".broken", "1", "", Over::scene, tie.broken, 1,
                                GhostRule::none);
     broken.owner = "tie " + tie.name;
@@ -238,6 +238,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
       }
     });
   }
+  for (const PartTie& tie : all.list) start_tied(tie, scene.nodes, followers);
 }
 
 /// When all forces are known, and nodes have the motion that boundaries give them.
