@@ -226,7 +226,10 @@ void read_fields(const Hdf5Reader& file, const CheckpointHead& head, Scene& scen
 }
 
 void take_models(const CheckpointHead& head, Scene& scene, Models& models) {
-  for (const LedgerEntry& e : head.ledger) models.ledger.entry(e.name, e.part) = e;
+  for (const LedgerEntry& e : head.ledger) {
+    if (is_state_of_another(e, models.ledger)) continue;
+    models.ledger.entry(e.name, e.part) = e;
+  }
   if (!same_models(head, models)) return take_other_models(head, scene, models);
   for (std::size_t k = 0; k < head.models.size(); ++k) {
     Model& m = models.list[k];

@@ -9,8 +9,16 @@
 namespace gannet {
 
 bool same_models(const CheckpointHead& head, const Models& models) {
-  return std::ranges::equal(head.models, models.list, {}, &CheckpointHead::ModelState::name,
-                            &Model::name);
+  const auto same = [](const CheckpointHead::ModelState& a, const Model& b) {
+    return a.name == b.name && (a.ranges.empty() || a.ranges == b.ranges);
+  };
+  return std::ranges::equal(head.models, models.list, same);
+}
+
+bool is_state_of_another(const LedgerEntry& e, const Ledger& ledger) {
+  return e.name == "kinetic" && std::ranges::none_of(ledger.entries(), [&](const LedgerEntry& own) {
+           return own.name == e.name && own.part == e.part;
+         });
 }
 
 bool is_of_link(const std::string& field) {
@@ -23,7 +31,7 @@ std::string trouble_with_models(const CheckpointHead& head, const Scene& scene) 
     for (const Part& part : scene.parts) {
       if (part.is_particles() || part.rigid || part.cell == Cell::point) continue;
       for (const Range& r : head.models[k].ranges) {
-        if (!r.contains(part.nodes.begin)) continue;
+        if (r.begin >= part.nodes.end || part.nodes.begin >= r.end) continue;
         return fmt::format(
             "part '{}' was in its model '{}', whose step was longer than that of "
             "others",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -99,10 +100,10 @@ std::size_t length_before(const std::string& text, double t) {
 std::string history_name(const Measure& measure) {
   constexpr std::string_view probe = "probe.";
   if (measure.name.starts_with(probe)) return file_name_of(measure.name.substr(probe.size()));
-  const bool shown = measure.name.starts_with("contact.") || measure.name.starts_with("wall.") ||
-                     measure.name.starts_with("cable.") || measure.name.starts_with("tie.") ||
-                     measure.name.starts_with("mooring.");
-  if (!shown) return "";
+  constexpr std::string_view shown[] = {"contact.", "wall.",  "cable.", "tie.",
+                                        "mooring.", "shell.", "solid.", "beam."};
+  const auto begins = [&](std::string_view kind) { return measure.name.starts_with(kind); };
+  if (std::ranges::none_of(shown, begins)) return "";
   std::string name = measure.name;
   for (char& c : name) {
     if (c == '.') c = '_';
