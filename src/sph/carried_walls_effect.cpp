@@ -43,7 +43,19 @@ std::vector<Keys> walled_bodies(const Keys& root) {
   return list;
 }
 
+void complain_of_slip(const Keys& root) {
+  if (!root.has("bodies")) return;
+  for (const std::string& name : root.map("bodies").names()) {
+    const Keys keys = root.map("bodies").map(name);
+    if (keys.word("walls") != "dummy" && keys.given("slip")) {
+      keys.complain("slip",
+                    "has no meaning: only walls of dummy particles have one (walls: dummy)");
+    }
+  }
+}
+
 void add_parts(const Keys& root, Draft& draft) {
+  complain_of_slip(root);
   for (const Keys& keys : walled_bodies(root)) {
     const std::vector<std::string> fluids = names_of_parts_with(root, "sph");
     if (fluids.empty()) {

@@ -140,9 +140,18 @@ void check_density(const Scene& scene, const GuardLimits& limits, const Step& s)
 /// between x and v shows in them.
 constexpr std::int64_t first_steps = 20;
 
+/// The energy of a motion of all nodes by a nanometre a second [J].
+double energy_of_rounding(const Scene& scene) {
+  constexpr double speed = 1e-9;
+  double mass = 0;
+  for (Index i = 0; i < scene.nodes.n_owned; ++i) mass += scene.nodes.x[i].w;
+  return 0.5 * mass * speed * speed;
+}
+
 void check_energy(const GuardState& state, const Step& s) {
   const EnergyBalance& b = state.balance;
   const bool known = std::isfinite(b.imbalance);
+  if (known && b.scale <= state.least_energy) return;
   if (known && s.n < first_steps && std::abs(b.start_held) <= 1e-9 * b.largest_total) return;
   const double error = known ? b.error_of_scale() : b.imbalance;
   if (std::abs(error) <= state.limits.energy_error) return;
@@ -192,6 +201,7 @@ void guards_operations(const Keys& root, Scene& scene, Models& models) {
   GuardState& state = scene.store.get<GuardState>();
   const Ledger& ledger = models.ledger;
   Model& model = models.list.back();
+  state.least_energy = energy_of_rounding(scene);
   model.plan.add({.name = "energy balance",
                   .reason = "always there: the energy ledger",
                   .stage = Stage::look,

@@ -18,8 +18,9 @@ struct GuardLimits {
 struct GuardState {
   GuardLimits limits;
   EnergyBalance balance;
-  Array<double> record;  ///< start held, largest total, imbalance, started, first dt,
-                         ///< scale (tracked)
+  Array<double> record;     ///< start held, largest total, imbalance, started, first dt,
+                            ///< scale (tracked)
+  double least_energy = 0;  ///< below it all energies are rounding, and no balance is held [J]
 };
 
 /// The effect "guards". Adds, at the end of look of the fastest model, "energy balance" (each step

@@ -89,10 +89,23 @@ TEST_CASE("guards: the energies of a scene that starts from none may settle for 
   for (Line& v : g.scene.nodes.v) v.x = 0;
   LedgerEntry& leak = g.models.ledger.entry("internal", "leak");
   g.next();
-  leak.value = 1e-20;
+  leak.value = 1e-12;
   int quiet = 1;
   while (g.next().empty() && quiet < 100) ++quiet;
   CHECK(quiet == 20);
+}
+
+TEST_CASE("guards: energies of less than a nanometre a second are rounding", "[time]") {
+  Guarded g;
+  for (Line& v : g.scene.nodes.v) v.x = 0;
+  double mass = 0;
+  for (const Line& x : g.scene.nodes.x) mass += x.w;
+  LedgerEntry& leak = g.models.ledger.entry("internal", "leak");
+  g.next();
+  leak.value = 0.4e-18 * mass;
+  for (int k = 0; k < 100; ++k) CHECK(g.next().empty());
+  leak.value = 0.6e-18 * mass;
+  CHECK_FALSE(g.next().empty());
 }
 
 TEST_CASE("guards: a step that collapses stops the run and says who limits it", "[time]") {
