@@ -99,9 +99,18 @@ bool can_meet_planes(const Keys& keys, const Part& part, const ShellSurface& dat
   return true;
 }
 
+/// Of the two keys that say how stiff contact is, one holds.
+void complain_of_factor(const Keys& keys) {
+  if (!keys.given("pressure_per_depth") || !keys.given("stiffness")) return;
+  keys.complain("stiffness",
+                "has no meaning beside 'pressure_per_depth', which takes the place of the penalty "
+                "that it multiplies");
+}
+
 void meet_planes(const Keys& keys, Scene& scene, int part) {
   const ShellSurface data = data_of(scene, part);
   if (!can_meet_planes(keys, scene.parts[static_cast<std::size_t>(part)], data)) return;
+  complain_of_factor(keys);
   const std::vector<std::string>& names = keys.words("between");
   const bool first = scene.part_number(names[0]) == part;
   PartOnPlanes& c =
