@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fe/beam_turns.hpp"
 #include "fe/element_blocks.hpp"
 
 namespace gannet {
@@ -123,20 +124,6 @@ double omega2_of(const BeamLaw& law, double l0, double l, double N) {
   };
   return std::max({2 * law.E * s.A / (l0 * mass.m), 2 * law.G * s.J / (l0 * mass.I.x()),
                    bending(s.I_y, s.A_z, mass.I.y()), bending(s.I_z, s.A_y, mass.I.z())});
-}
-
-/// Turns the nodes of a block by omega dt_old.
-void turn_nodes(BeamBlock& block, const Nodes& nodes, double dt_old) {
-  parallel_for(block.nodes.size(), node_chunk, [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(block.nodes.begin + k);
-      Line& line = block.turned[static_cast<std::size_t>(k)];
-      const Vec3 half = 0.5 * dt_old * xyz(nodes.omega[i]);
-      const Quaternion q =
-          (Quaternion(1, half.x(), half.y(), half.z()) * quaternion_of(line)).normalized();
-      line = {q.w(), q.x(), q.y(), q.z()};
-    }
-  });
 }
 
 /// Keeps the section forces of element e at its middle.

@@ -76,10 +76,11 @@ struct BeamBlock {
   Array<double> inverse_mass;     ///< see ElementVotes; none: no mass was added
   Array<double> l0;               ///< unstrained length of each element [m]
   std::vector<Quaternion> frame;  ///< of each element at the start: x along it, y, z of its section
-  Array<Line> turned;    ///< how far each node has turned since the start: quaternion w, x, y, z
-                         ///< as x, y, z, w of the line
-  Array<double> energy;  ///< one number: strain energy of all at the last level [J]
-  Array<double> forces;  ///< 6 an element: N, V_y, V_z, T, M_y, M_z at its middle
+  Array<Line> turned;  ///< how far each node has turned since the start: quaternion w, x, y, z
+                       ///< as x, y, z, w of the line
+  std::vector<std::uint8_t> elsewhere;  ///< see add_turns_elsewhere(); none: no node is
+  Array<double> energy;                 ///< one number: strain energy of all at the last level [J]
+  Array<double> forces;                 ///< 6 an element: N, V_y, V_z, T, M_y, M_z at its middle
   ChunkColours colouring;
   std::vector<BeamSums> sums;  ///< one a chunk, of the last pass
   double omega2 = 0;           ///< of the last pass [1/s^2]

@@ -8,6 +8,7 @@
 
 #include "fe/beam.hpp"
 #include "fe/beam_inertia.hpp"
+#include "fe/beam_turns.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"
 #include "fe/mass_scaling.hpp"
@@ -250,6 +251,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     part.stable_dt = [&block] { return stable_step(block); };
     part.limiting = [&block] { return block.limiting; };
     add_element_operation(root, scene, models, std::move(part));
+    add_turns_elsewhere(scene, block, models);
     if (!scene.parts[static_cast<std::size_t>(block.part)].rigid) {
       add_beam_inertia(scene, block, models);
     }

@@ -10,8 +10,8 @@
 #include "base/error.hpp"
 #include "base/free_rotation.hpp"
 #include "base/parallel.hpp"
+#include "fe/beam_turns.hpp"
 #include "plan/effect.hpp"
-#include "plan/model_of_part.hpp"
 #include "scene/given_rotations.hpp"
 
 namespace gannet {
@@ -81,10 +81,12 @@ Vec3 spin_of(const BeamInertia& inertia, const BeamBlock& block, const Nodes& no
   return A * (Pi + 0.5 * dt_old * Pi.cross(Omega));
 }
 
-void turn_by_inertia(BeamInertia& inertia, const BeamBlock& block, Nodes& nodes, const Step& step) {
+void turn_by_inertia(BeamInertia& inertia, const BeamBlock& block, std::span<const Index> mine,
+                     Nodes& nodes, const Step& step) {
   const double dt_kick = 0.5 * (step.dt_old + step.dt);
-  parallel_for(block.nodes.size(), beam_node_chunk, [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k) {
+  parallel_for(std::ssize(mine), beam_node_chunk, [&](Index begin, Index end) {
+    for (Index j = begin; j < end; ++j) {
+      const Index k = mine[static_cast<std::size_t>(j)];
       const auto i = static_cast<std::size_t>(block.nodes.begin + k);
       if (!has_own(inertia, nodes, k, i)) continue;
       fit(inertia, nodes, static_cast<std::size_t>(k), i);
@@ -103,11 +105,12 @@ void turn_by_inertia(BeamInertia& inertia, const BeamBlock& block, Nodes& nodes,
   });
 }
 
-double energy_of_inertia(const BeamInertia& inertia, const BeamBlock& block, const Nodes& nodes,
-                         const Step& step) {
-  return parallel_sum(block.nodes.size(), beam_node_chunk, [&](Index begin, Index end) {
+double energy_of_inertia(const BeamInertia& inertia, const BeamBlock& block,
+                         std::span<const Index> mine, const Nodes& nodes, const Step& step) {
+  return parallel_sum(std::ssize(mine), beam_node_chunk, [&](Index begin, Index end) {
     double energy = 0;
-    for (Index k = begin; k < end; ++k) {
+    for (Index j = begin; j < end; ++j) {
+      const Index k = mine[static_cast<std::size_t>(j)];
       const auto i = static_cast<std::size_t>(block.nodes.begin + k);
       if (!has_own(inertia, nodes, k, i)) continue;
       const Vec3 at_level =
@@ -125,26 +128,31 @@ void add_beam_inertia(Scene& scene, const BeamBlock& block, Models& models) {
   std::sort(given.begin(), given.end());
   BeamInertia& inertia =
       scene.store.get<BeamInertias>().list.emplace_back(beam_inertia(block, scene.nodes, given));
-  Model& model = model_of_part(scene, models, block.part);
   const std::string name = "beam " + block.name + ": rotary inertia";
   const std::string reason = asked_for_at(scene.parts[static_cast<std::size_t>(block.part)].where);
-  // After all that adds torques, ties too, and before the kick of the leapfrog.
-  model.plan.add_first({.name = name,
-                        .reason = reason,
-                        .stage = Stage::kick,
-                        .reads = {"omega", "torque"},
-                        .writes = {"torque"},
-                        .run = [&scene, &block, &inertia](const Step& step) {
-                          turn_by_inertia(inertia, block, scene.nodes, step);
-                        }});
-  LedgerEntry* entry = &models.ledger.entry("rotary_inertia", block.name);
-  model.plan.add({.name = name + ": energy",
-                  .reason = reason,
-                  .stage = Stage::look,
-                  .reads = {"omega", "torque"},
-                  .run = [&scene, &block, &inertia, entry](const Step& step) {
-                    entry->value = energy_of_inertia(inertia, block, scene.nodes, step);
-                  }});
+  for (Model& model : models.list) {
+    const std::vector<Index> mine = nodes_in(block, model);
+    if (mine.empty()) continue;
+    // After all that adds torques, ties too, and before the kick of the leapfrog.
+    model.plan.add_first({.name = name,
+                          .reason = reason,
+                          .stage = Stage::kick,
+                          .reads = {"omega", "torque"},
+                          .writes = {"torque"},
+                          .run = [&scene, &block, &inertia, mine](const Step& step) {
+                            turn_by_inertia(inertia, block, mine, scene.nodes, step);
+                          }});
+    const bool whole = std::ssize(mine) == block.nodes.size();
+    LedgerEntry* entry = &models.ledger.entry(
+        "rotary_inertia", whole ? block.name : block.name + " in " + model.name);
+    model.plan.add({.name = name + ": energy",
+                    .reason = reason,
+                    .stage = Stage::look,
+                    .reads = {"omega", "torque"},
+                    .run = [&scene, &block, &inertia, entry, mine](const Step& step) {
+                      entry->value = energy_of_inertia(inertia, block, mine, scene.nodes, step);
+                    }});
+  }
 }
 
 }  // namespace gannet

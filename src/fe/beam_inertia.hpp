@@ -10,6 +10,7 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "base/math.hpp"
@@ -40,16 +41,20 @@ BeamInertia beam_inertia(const BeamBlock& block, const Nodes& nodes,
 Vec3 spin_of(const BeamInertia& inertia, const BeamBlock& block, const Nodes& nodes, Index k,
              double dt_old);
 
-/// Replaces the torques of the block's nodes as described above. Throws RunError where a rotation
+/// Replaces the torques of nodes of the block, of those in `mine` (their places in it), as
+/// described above. step: of the model that they advance in. Throws RunError where a rotation
 /// cannot be found.
-void turn_by_inertia(BeamInertia& inertia, const BeamBlock& block, Nodes& nodes, const Step& step);
+void turn_by_inertia(BeamInertia& inertia, const BeamBlock& block, std::span<const Index> mine,
+                     Nodes& nodes, const Step& step);
 
 /// What the kinetic energy of rotation at level n has beyond that of the leapfrog, after the kick:
 ///   sum 1/2 omega . (A J A^T - I) omega [J]
-double energy_of_inertia(const BeamInertia& inertia, const BeamBlock& block, const Nodes& nodes,
-                         const Step& step);
+/// over the nodes in `mine`. step: of the model that they advance in.
+double energy_of_inertia(const BeamInertia& inertia, const BeamBlock& block,
+                         std::span<const Index> mine, const Nodes& nodes, const Step& step);
 
-/// Adds it to the plan of a model and its energy to the ledger, entry `rotary_inertia`.
+/// Adds it to the plans of all models that nodes of the block advance in (some may hang on what is
+/// in a faster one) and its energy to the ledger, an entry `rotary_inertia` each.
 void add_beam_inertia(Scene& scene, const BeamBlock& block, Models& models);
 
 /// scene.store.get<BeamInertias>(); addresses never change.
