@@ -14,7 +14,7 @@ namespace gannet {
 std::vector<Corners> tie_segments(const Part& part);
 
 /// The nearest place on the segments for each node, in their order; `farthest` is the largest
-/// distance, at row `at`. A weight below 1e-9 counts as none.
+/// distance, at `row_there`. A weight below 1e-9 counts as none.
 struct TieRows {
   std::vector<TiedNode> rows;
   double farthest = 0;    ///< [m]
@@ -22,8 +22,8 @@ struct TieRows {
   std::size_t row_there = 0;
 };
 
-/// Finds them. Needs at least one segment. Where `within` is 0, a node may be a tenth of the
-/// longest side of its segment away: farthest / size_there then tells whether one is too far.
+/// Finds them. Needs at least one segment. However far a node is, it gets a row: farthest and
+/// size_there tell the caller whether one is too far.
 TieRows find_tie_rows(const Scene& scene, const std::vector<Index>& nodes,
                       const std::vector<Corners>& segments);
 
