@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fe/beam_mass.hpp"
+#include "fe/beam_releases.hpp"
 #include "fe/beam_turns.hpp"
 #include "fe/element_blocks.hpp"
 
@@ -14,17 +16,6 @@ namespace {
 Vec3 at(std::span<const Line> x, Index node) { return xyz(x[static_cast<std::size_t>(node)]); }
 
 Quaternion quaternion_of(const Line& line) { return {line.x, line.y, line.z, line.w}; }
-
-/// 12 E I/(G A_s l^2); 0 where the section is stiff in shear.
-double shear_ratio(const BeamLaw& law, double I, double A_s, double l) {
-  return A_s > 0 ? 12 * law.E * I / (law.G * A_s * l * l) : 0;
-}
-
-BendingStiffness bending_of(const BeamLaw& law, double I, double A_s, double l0) {
-  const double phi = shear_ratio(law, I, A_s, l0);
-  const double k = law.E * I / (l0 * (1 + phi));
-  return {k * (4 + phi), k * (2 - phi)};
-}
 
 /// Rotation vector of a unit quaternion with w >= 0.
 Vec3 rotation_vector(const Quaternion& q) {
@@ -55,10 +46,6 @@ Quaternion section_frame(const Vec3& r, const Vec3& up) {
   return Quaternion(axes);
 }
 
-bool has_left(const BeamBlock& block, std::size_t k) {
-  return !block.gone.empty() && block.gone[k] != 0;
-}
-
 /// Where an element is and what its ends have turned against it.
 struct BeamPose {
   Quaternion frame;
@@ -67,14 +54,6 @@ struct BeamPose {
   Vec3 theta_1 = Vec3::Zero();
   Vec3 theta_2 = Vec3::Zero();
 };
-
-/// What the frame of an element follows of the triads of its nodes: both, or the one whose end is
-/// not released.
-double share_of_first(unsigned released) {
-  const bool first = (released & 7U) != 0;
-  const bool second = (released >> 3U) != 0;
-  return first == second ? 0.5 : (first ? 0.0 : 1.0);
-}
 
 /// t_1, t_2: triads of the nodes; r: chord [m]; share: of t_1 in the frame, 0, 1/2 or 1.
 BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r, double share) {
@@ -101,31 +80,6 @@ BeamPose pose_of(const Quaternion& t_1, Quaternion t_2, const Vec3& r, double sh
   return pose;
 }
 
-BeamNodeMass mass_of(const BeamLaw& law, double l0) {
-  const BeamSection& s = law.section;
-  const double m = 0.5 * law.rho * s.A * l0;
-  const RotaryRatios r = rotary_ratios(law, l0);
-  return {m, m / s.A * Vec3(s.I_y + s.I_z, r.y * s.I_y, r.z * s.I_z)};
-}
-
-/// The highest frequency of a free element, squared, from its own lumped mass m = rho A l0/2 and
-/// rotary inertia J_x, J_y, J_z; l: present length [m], N: axial force [N].
-///   along it    2 E A/(l0 m)
-///   torsion     2 G J/(l0 J_x)
-///   bending     12 E I/(l0 (1 + phi)) (2/(m l^2) + 1/(2 J_r)) with both ends turned alike, or
-///               2 E I/(l0 J_r) against each other; a tension adds 4 N/(l m) to the former
-double omega2_of(const BeamLaw& law, double l0, double l, double N) {
-  const BeamSection& s = law.section;
-  const BeamNodeMass mass = mass_of(law, l0);
-  const auto bending = [&](double I_s, double A_s, double J_r) {
-    const double k = 12 * law.E * I_s / (l0 * (1 + shear_ratio(law, I_s, A_s, l0)));
-    return std::max(k * (2 / (mass.m * l * l) + 0.5 / J_r) + 4 * std::max(N, 0.0) / (l * mass.m),
-                    2 * law.E * I_s / (l0 * J_r));
-  };
-  return std::max({2 * law.E * s.A / (l0 * mass.m), 2 * law.G * s.J / (l0 * mass.I.x()),
-                   bending(s.I_y, s.A_z, mass.I.y()), bending(s.I_z, s.A_y, mass.I.z())});
-}
-
 /// Keeps the section forces of element e at its middle.
 void show_forces(BeamBlock& block, Index e, const BeamForces& f, double inverse_l) {
   const Vec3 sum = f.M_1 + f.M_2;
@@ -136,46 +90,6 @@ void show_forces(BeamBlock& block, Index e, const BeamForces& f, double inverse_
   out[2] = sum.y() * inverse_l;
   for (Eigen::Index i = 0; i < 3; ++i) out[3 + i] = middle[i];
 }
-
-/// Turns of released ends in one plane over those of the other end: the ones without moment.
-double follows(const BeamLaw& law, double I, double A_s, double l0) {
-  const BendingStiffness k = bending_of(law, I, A_s, l0);
-  return -k.k2 / k.k4;
-}
-
-/// What of the strain of an element with released ends its section feels.
-struct Releases {
-  bool first[3], second[3];
-  double share[3];  ///< follows(), about y and z
-
-  Releases(const BeamLaw& law, double l0, unsigned bits) {
-    for (unsigned i = 0; i < 3; ++i) {
-      first[i] = (bits >> i & 1U) != 0;
-      second[i] = (bits >> (3 + i) & 1U) != 0;
-    }
-    share[0] = 1;  // no twist
-    share[1] = follows(law, law.section.I_y, law.section.A_z, l0);
-    share[2] = follows(law, law.section.I_z, law.section.A_y, l0);
-  }
-
-  void reduce(BeamStrain& q) const {
-    for (int i = 0; i < 3; ++i) {
-      if (first[i] && second[i]) q.theta_1[i] = q.theta_2[i] = 0;
-      if (first[i] && !second[i]) q.theta_1[i] = share[i] * q.theta_2[i];
-      if (second[i] && !first[i]) q.theta_2[i] = share[i] * q.theta_1[i];
-    }
-  }
-
-  /// The transpose: moments of the reduced strain on the ends.
-  void expand(BeamStress& f) const {
-    for (int i = 0; i < 3; ++i) {
-      if (first[i] && !second[i]) f.m_2[i] += share[i] * f.m_1[i];
-      if (second[i] && !first[i]) f.m_1[i] += share[i] * f.m_2[i];
-      if (first[i]) f.m_1[i] = 0;
-      if (second[i]) f.m_2[i] = 0;
-    }
-  }
-};
 
 BeamStress elastic_stress(const BeamLaw& law, double l0, const BeamStrain& q) {
   const BeamSection& s = law.section;
@@ -285,7 +199,7 @@ void add_damping(BeamBlock& block, std::size_t k, const BeamStrain& q, double dt
   load(kept, q_old, d_old);
   BeamStress d;
   if (dt > 0) {
-    const double rate = has_left(block, k) ? 0 : block.damping_time[k] / dt;
+    const double rate = block.has_left(k) ? 0 : block.damping_time[k] / dt;
     d = elastic_stress(block.law, block.l0[k],
                        {rate * (q.u - q_old.u), rate * (q.theta_1 - q_old.theta_1),
                         rate * (q.theta_2 - q_old.theta_2)});
@@ -318,7 +232,7 @@ BeamForces element_forces(BeamBlock& block, std::size_t k, const BeamPose& pose,
     f = section_stress(block, k, q, dt, sums);
     if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
   } else {
-    const Releases releases(block.law, block.l0[k], bits);
+    const BeamReleases releases(block.law, block.l0[k], bits);
     releases.reduce(q);
     f = section_stress(block, k, q, dt, sums);
     if (!block.damping_time.empty()) add_damping(block, k, q, dt, f, sums);
@@ -332,7 +246,7 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, double dt, Index begin, Index
   BeamSums sums;
   for (Index e = begin; e < end; ++e) {
     const auto k = static_cast<std::size_t>(e);
-    if (has_left(block, k)) {
+    if (block.has_left(k)) {
       show_forces(block, e, {}, 0);
       continue;
     }
@@ -363,16 +277,6 @@ BeamSums pass_over(BeamBlock& block, Nodes& nodes, double dt, Index begin, Index
 }
 
 }  // namespace
-
-RotaryRatios rotary_ratios(const BeamLaw& law, double l0) {
-  if (law.rotary_inertia > 0) return {law.rotary_inertia, law.rotary_inertia};
-  const BeamSection& s = law.section;
-  const auto wanted = [&](double I, double A_s) {
-    const double room = 1 + shear_ratio(law, I, A_s, l0) - 12 * I / (s.A * l0 * l0);
-    return std::max(1.0, 3 / std::max(1.0, room));
-  };
-  return {wanted(s.I_y, s.A_z), wanted(s.I_z, s.A_y)};
-}
 
 BeamForces beam_forces(const BeamLaw& law, double l0, double u, const Vec3& theta_1,
                        const Vec3& theta_2, double& energy) {
@@ -411,70 +315,6 @@ BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<co
   block.colouring = colour_chunks(block.ends, 2, beam_chunk);
   block.sums.resize(static_cast<std::size_t>(block.colouring.n_chunks));
   return block;
-}
-
-BeamNodeMass node_mass(const BeamBlock& block, Index e) {
-  return mass_of(block.law, block.l0[static_cast<std::size_t>(e)]);
-}
-
-Array<double> bounds_of(const BeamBlock& block) {
-  Array<double> bounds(static_cast<std::size_t>(lanes * blocks_for(block.n_elements())), 0);
-  for (std::size_t e = 0; e < block.l0.size(); ++e) {
-    bounds[e] = omega2_of(block.law, block.l0[e], block.l0[e], 0);
-  }
-  return bounds;
-}
-
-void add_beam_masses(const BeamBlock& block, Nodes& nodes) {
-  for (std::size_t k = 0; k < block.ends.size(); ++k) {
-    const auto i = static_cast<std::size_t>(block.ends[k]);
-    const BeamNodeMass mass = node_mass(block, static_cast<Index>(k / 2));
-    nodes.x[i].w += mass.m;
-    nodes.torque[i].w += mass.largest();
-  }
-}
-
-void prepare_damping(BeamBlock& block) {
-  if (!block.law.damping.given()) return;
-  block.damping_time = damping_times(block.law.damping, bounds_of(block));
-}
-
-bool release(BeamBlock& block, Index node, unsigned axes) {
-  std::vector<std::size_t> ends;
-  for (std::size_t k = 0; k < block.ends.size(); ++k) {
-    if (block.ends[k] == node) ends.push_back(k);
-  }
-  if (ends.empty()) return false;
-  if (ends.size() > 1) ends.pop_back();
-  block.released.resize(block.l0.size(), 0);
-  for (const std::size_t k : ends) {
-    std::uint8_t& bits = block.released[k / 2];
-    bits = static_cast<std::uint8_t>(bits | axes << (k % 2 == 0 ? 0U : 3U));
-  }
-  return true;
-}
-
-void show_plastic_strain(BeamBlock& block) {
-  const std::size_t n = fibre_values(block.law.section, block.law.yield);
-  block.plastic_shown.assign(block.l0.size(), 0);
-  for (std::size_t e = 0; e < block.l0.size(); ++e) {
-    for (std::size_t k = 1; k < n; k += block.law.yield.n_values()) {
-      block.plastic_shown[e] = std::max(block.plastic_shown[e], block.fibres[n * e + k]);
-    }
-  }
-}
-
-double share_of_failed(const BeamBlock& block, std::size_t e) {
-  const std::size_t n = fibre_values(block.law.section, block.law.yield);
-  std::size_t failed = 0;
-  for (std::size_t k = 3; k < n; k += 4) failed += block.fibres[n * e + k] >= 1 ? 1 : 0;
-  return has_left(block, e) ? 1 : static_cast<double>(4 * failed) / static_cast<double>(n);
-}
-
-void show_damage(BeamBlock& block) {
-  block.damage_shown.resize(block.l0.size());
-  for (std::size_t e = 0; e < block.l0.size(); ++e)
-    block.damage_shown[e] = share_of_failed(block, e);
 }
 
 ElementWork beam_pass(BeamBlock& block, Nodes& nodes, double dt_old) {

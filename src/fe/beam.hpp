@@ -11,33 +11,12 @@
 
 #include "base/array.hpp"
 #include "base/math.hpp"
-#include "fe/beam_fibres.hpp"
-#include "fe/beam_section.hpp"
+#include "fe/beam_law.hpp"
 #include "fe/colouring.hpp"
 #include "fe/element_part.hpp"
-#include "fe/stiffness_damping.hpp"
 #include "scene/scene.hpp"
 
 namespace gannet {
-
-/// What all beams of a part share.
-struct BeamLaw {
-  BeamSection section;
-  double E = 0;               ///< Young's modulus [Pa], > 0
-  double G = 0;               ///< shear modulus [Pa], > 0
-  double rho = 0;             ///< density [kg/m^3], > 0
-  double rotary_inertia = 0;  ///< of a node about y, z over m I_y/A, m I_z/A; 0: rotary_ratios()
-  double dt_factor = 0.9;     ///< share of the stable step that is voted for
-  UniaxialLaw yield;          ///< of the fibres; elastic unless it yields
-  StiffnessDamping damping;
-};
-
-/// Stiffness of an element against the rotations of its ends in one plane, and its part of it:
-///   M_1 = k4 theta_1 + k2 theta_2,  M_2 = k2 theta_1 + k4 theta_2
-struct BendingStiffness {
-  double k4 = 0;  ///< E I/l0 (4 + phi)/(1 + phi) [N m]
-  double k2 = 0;  ///< E I/l0 (2 - phi)/(1 + phi) [N m]
-};
 
 /// Local forces of an element at level n.
 struct BeamForces {
@@ -86,6 +65,7 @@ struct BeamBlock {
   double omega2 = 0;           ///< of the last pass [1/s^2]
   Index limiting = -1;         ///< the element it belongs to
   [[nodiscard]] Index n_elements() const { return static_cast<Index>(l0.size()); }
+  [[nodiscard]] bool has_left(std::size_t k) const { return !gone.empty() && gone[k] != 0; }
 };
 
 /// All beams of a scene (scene.store.get<BeamBlocks>()); addresses never change.
@@ -102,47 +82,6 @@ inline constexpr Index beam_chunk = 256;
 /// one has no length or lies along `up`.
 BeamBlock make_beam_block(std::span<const Index> ends, Range range, std::span<const Line> x,
                           const BeamLaw& law, const Vec3& up);
-
-/// Rotary inertia of a node about y and z over m I_y/A and m I_z/A of an element of length l0:
-/// law.rotary_inertia; where that is 0 the least one, from 1 on, with which rotations do not limit
-/// the step (see omega2_of() in beam.cpp):
-///   max(1, 3/max(1, 1 + phi - 12 I/(A l0^2)))
-struct RotaryRatios {
-  double y = 1;
-  double z = 1;
-};
-RotaryRatios rotary_ratios(const BeamLaw& law, double l0);
-
-/// Mass [kg] and rotary inertia about the axes of the section [kg m^2] that element e gives to each
-/// of its nodes: m (I_y + I_z)/A about x, rotary_ratios() m I/A about y and z.
-struct BeamNodeMass {
-  double m = 0;
-  Vec3 I = Vec3::Zero();
-  [[nodiscard]] double largest() const { return I.maxCoeff(); }
-};
-BeamNodeMass node_mass(const BeamBlock& block, Index e);
-
-/// Squares of the bounds of the frequencies of the unstrained elements [1/s^2], eight a block.
-Array<double> bounds_of(const BeamBlock& block);
-
-/// Sets the damping times up that the law asks for.
-void prepare_damping(BeamBlock& block);
-
-/// Releases ends of elements about axes of their sections at a node: every element that meets there
-/// but the last, the only one where a line ends. axes: bits 0, 1, 2 for x, y, z. The moments about
-/// them vanish, and with a released end the other one alone says how the element is turned about
-/// its chord. Returns whether the node is one of the block.
-bool release(BeamBlock& block, Index node, unsigned axes);
-
-/// Fills damage_shown. Needs a law that fails.
-void show_damage(BeamBlock& block);
-
-/// Fills plastic_shown. Needs a law that yields.
-void show_plastic_strain(BeamBlock& block);
-
-/// Adds to both nodes of each element m = rho A l0/2, and the largest of its rotary inertias: what
-/// the nodes' tensor is less about other axes is the matter of beam_inertia.hpp.
-void add_beam_masses(const BeamBlock& block, Nodes& nodes);
 
 /// One pass: node triads to n, forces and moments at x(n) added to nodes.f and nodes.torque;
 /// returns the change of the strain energy, of beams that yield the work by trapezoids. dt_old:

@@ -8,6 +8,9 @@
 
 #include "fe/beam.hpp"
 #include "fe/beam_inertia.hpp"
+#include "fe/beam_mass.hpp"
+#include "fe/beam_releases.hpp"
+#include "fe/beam_shown.hpp"
 #include "fe/beam_turns.hpp"
 #include "fe/effects.hpp"
 #include "fe/element_part.hpp"

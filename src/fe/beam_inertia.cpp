@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/free_rotation.hpp"
 #include "base/parallel.hpp"
+#include "fe/beam_mass.hpp"
 #include "fe/beam_turns.hpp"
 #include "plan/effect.hpp"
 #include "scene/given_rotations.hpp"

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/parallel.hpp"
+#include "fe/beam_mass.hpp"
 
 using namespace gannet;
 

@@ -7,6 +7,9 @@
 
 #include "base/parallel.hpp"
 #include "fe/beam.hpp"
+#include "fe/beam_mass.hpp"
+#include "fe/beam_releases.hpp"
+#include "fe/beam_shown.hpp"
 
 using namespace gannet;
 
