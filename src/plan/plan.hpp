@@ -133,7 +133,6 @@ struct Models {
   Model& of_node(Index node);
   /// The place of a model in the list: the smaller, the slower.
   [[nodiscard]] std::size_t rank(const Model& model) const;
-  Model& of_part(const Scene& scene, int part) { return of_node(scene.parts[part].nodes.begin); }
 };
 
 /// v(n) of node i after the kick: v(n+1/2) - (f/m) dt/2. Holds for prescribed and tied nodes too,
