@@ -9,6 +9,7 @@
 
 #include "contact/part_contact.hpp"
 #include "scene/bonds.hpp"
+#include "scene/part_nodes.hpp"
 #include "time/step.hpp"
 
 namespace gannet {
@@ -33,12 +34,6 @@ struct Units {
     root[at(std::max(find(a), find(b)))] = low;
   }
 };
-
-int part_of(const Scene& scene, Index node) {
-  int p = 0;
-  while (!scene.parts[at(p)].nodes.contains(node)) ++p;
-  return p;
-}
 
 Units units_of(Scene& scene) {
   Units units(scene.parts.size());

@@ -12,6 +12,7 @@
 #include "contact/tie_rows.hpp"
 #include "plan/model_of_part.hpp"
 #include "scene/node_set.hpp"
+#include "scene/part_nodes.hpp"
 
 namespace gannet {
 
@@ -26,12 +27,6 @@ std::vector<Keys> ties_of(const Keys& root) {
     list.push_back(root.map("ties").map(name));
   }
   return list;
-}
-
-int part_of(const Scene& scene, Index node) {
-  int number = 0;
-  while (!scene.parts[static_cast<std::size_t>(number)].nodes.contains(node)) ++number;
-  return number;
 }
 
 std::string place_text(const Scene& scene, Index node) {

@@ -12,6 +12,7 @@
 #include "contact/effects.hpp"
 #include "plan/effect.hpp"
 #include "scene/node_set.hpp"
+#include "scene/part_nodes.hpp"
 
 namespace gannet {
 
@@ -38,18 +39,12 @@ Schema schema() {
             .limits = positive()}}};
 }
 
-const Part& part_of(const Scene& scene, Index node) {
-  const auto found =
-      std::ranges::find_if(scene.parts, [&](const Part& p) { return p.nodes.contains(node); });
-  return *found;
-}
-
 /// Why a node cannot be tied to a group; "" where it can.
 std::string trouble_with(const Scene& scene, const PartGroup& group, Index node) {
-  const Part& part = part_of(scene, node);
+  const int number = part_of(scene, node);
+  const Part& part = scene.parts[static_cast<std::size_t>(number)];
   const auto is_mine = [&](const PartGroup& g) {
-    return std::ranges::any_of(
-        g.parts, [&](int p) { return &scene.parts[static_cast<std::size_t>(p)] == &part; });
+    return std::ranges::find(g.parts, number) != g.parts.end();
   };
   if (is_mine(group)) {
     return fmt::format("part '{}' belongs to body '{}'; a part of something else is tied to it",

@@ -1,4 +1,4 @@
-// The nodes of a part, whatever order its particles are in.
+// The nodes of a part, whatever order its particles are in, and the part of a node.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -17,6 +17,13 @@ void for_nodes_of_part(const Scene& scene, int number, F&& f) {
   for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
     if (scene.particle_part[i - scene.particles.begin] == number) f(i);
   }
+}
+
+/// Number of the part of a node that is no particle. Needs one that has it.
+inline int part_of(const Scene& scene, Index node) {
+  int number = 0;
+  while (!scene.parts[static_cast<std::size_t>(number)].nodes.contains(node)) ++number;
+  return number;
 }
 
 }  // namespace gannet
