@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "contact/linked_weight.hpp"
+#include "contact/track_contact.hpp"
 #include "plan/effect.hpp"
 #include "plan/model_of_part.hpp"
 
@@ -87,51 +88,40 @@ void forget_far(const Scene& scene, NodeToSegment& c) {
   }
 }
 
-void track_fields(Scene& scene, NodeToSegment& c, bool friction) {
+void size_memory(const Scene& scene, NodeToSegment& c, bool friction) {
   const auto n = static_cast<std::size_t>(scene.particles.size());
-  const std::string prefix = "contact." + c.name + ".";
-  const auto track = [&](Field f) {
-    f.owner = "contact " + c.name;
-    scene.fields.push_back(std::move(f));
-  };
   c.x_search.resize(n);
   c.side.assign(n, 0);
   c.offset.assign(n, 0);
+  if (friction) c.tangential.resize(n);
   c.node_x_search.resize(c.surface.node.size());
   c.search_numbers = {-1, 0, 0};
-  const auto none = GhostRule::none;
-  track(line_field(prefix + "x_search", "m", "", Over::particles, c.x_search, 0, 3, none));
-  track(plain_field(prefix + "side", "1", "", Over::particles, c.side, 1, none));
-  track(plain_field(prefix + "offset", "m", "", Over::particles, c.offset, 1, none));
-  if (friction) {
-    c.tangential.resize(n);
-    track(line_field(prefix + "tangential", "N", "", Over::particles, c.tangential, 0, 3, none));
-  }
-  track(line_field(prefix + "node_x_search", "m", "", Over::scene, c.node_x_search, 0, 3, none));
-  track(plain_field(prefix + "search_numbers", "", "", Over::scene, c.search_numbers, 1, none));
+}
+
+Vec3 friction_on_surface(const NodeToSegment& c) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& f : c.forces.friction) sum -= f;
+  return sum;
 }
 
 /// Friction acts along the surface, as viscosity does, and counts as such in probes.
-void add_measures(Scene& scene, NodeToSegment& c, bool friction) {
-  const std::string prefix = "contact." + c.name + ".";
-  scene.measures.push_back({prefix + "force", "N", {"x", "y", "z"}, [&c](double* out) {
-                              for (int k = 0; k < 3; ++k) out[k] = c.scattered.on_surface[k];
-                            }});
-  if (friction) {
-    scene.measures.push_back({prefix + "viscous_force", "N", {"x", "y", "z"}, [&c](double* out) {
-                                Vec3 sum = Vec3::Zero();
-                                for (const Vec3& f : c.forces.friction) sum -= f;
-                                for (int k = 0; k < 3; ++k) out[k] = sum[k];
-                              }});
+void track(Scene& scene, NodeToSegment& c) {
+  const auto none = GhostRule::none;
+  std::vector<Field> fields{
+      line_field("x_search", "m", "", Over::particles, c.x_search, 0, 3, none),
+      plain_field("side", "1", "", Over::particles, c.side, 1, none),
+      plain_field("offset", "m", "", Over::particles, c.offset, 1, none)};
+  ContactTold told{.force = [&c] { return c.scattered.on_surface; },
+                   .active = [&c] { return c.scattered.active; },
+                   .numbers = &c.search_numbers,
+                   .overlaps = 1};
+  if (!c.tangential.empty()) {
+    fields.push_back(line_field("tangential", "N", "", Over::particles, c.tangential, 0, 3, none));
+    told.viscous_force = [&c] { return friction_on_surface(c); };
   }
-  scene.measures.push_back({prefix + "active", "1", {"value"}, [&c](double* out) {
-                              *out = static_cast<double>(c.scattered.active);
-                            }});
-  scene.measures.push_back(
-      {prefix + "overlaps", "1", {"value"}, [&c](double* out) { *out = c.search_numbers[1]; }});
-  scene.measures.push_back({prefix + "overlap_depth", "m", {"value"}, [&c](double* out) {
-                              *out = c.search_numbers[2];
-                            }});
+  fields.push_back(line_field("node_x_search", "m", "", Over::scene, c.node_x_search, 0, 3, none));
+  fields.push_back(plain_field("search_numbers", "", "", Over::scene, c.search_numbers, 1, none));
+  track_contact(scene, c.name, std::move(fields), told);
 }
 
 bool is_linked(const NodeToSegment& c) { return !c.link.nodes.empty(); }
@@ -211,8 +201,8 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());
-  track_fields(scene, c, friction);
-  add_measures(scene, c, friction);
+  size_memory(scene, c, friction);
+  track(scene, c);
   scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
   scene.after_restart.push_back([&scene, &c] {
     if (c.search_numbers[0] >= 0) make_list(scene, c);

@@ -9,6 +9,7 @@
 #include "contact/part_contact.hpp"
 #include "contact/part_planes.hpp"
 #include "contact/part_search.hpp"
+#include "contact/track_contact.hpp"
 #include "plan/effect.hpp"
 
 namespace gannet {
@@ -32,46 +33,39 @@ void add_direction(PartContact& c, std::size_t points, bool friction) {
   d.node_path.resize(c.sides[d.segments].surface.node.size());
 }
 
-void track_fields(Scene& scene, PartContact& c) {
-  const std::string prefix = "contact." + c.name + ".";
-  const auto none = GhostRule::none;
-  const auto track = [&](Field f) {
-    f.owner = "contact " + c.name;
-    scene.fields.push_back(std::move(f));
-  };
-  track(plain_field(prefix + "numbers", "", "", Over::scene, c.numbers, 1, none));
-  for (std::size_t k = 0; k < c.sides.size(); ++k) {
-    track(line_field(fmt::format("{}{}.x_search", prefix, k), "m", "", Over::scene,
-                     c.sides[k].x_search, 0, 3, none));
+Vec3 force_on_second(const PartContact& c) {
+  Vec3 sum = Vec3::Zero();
+  for (const PartDirection& d : c.directions) {
+    sum += (d.segments == 1 ? 1 : -1) * d.scattered.on_surface;
   }
-  for (PartDirection& d : c.directions) {
-    const std::string of = fmt::format("{}{}.", prefix, d.points);
-    track(plain_field(of + "side", "1", "", Over::scene, d.side, 1, none));
-    track(plain_field(of + "offset", "m", "", Over::scene, d.offset, 1, none));
-    if (d.tangential.empty()) continue;
-    track(line_field(of + "tangential", "N", "", Over::scene, d.tangential, 0, 3, none));
-  }
+  return sum;
 }
 
-void add_measures(Scene& scene, PartContact& c) {
-  const std::string prefix = "contact." + c.name + ".";
-  scene.measures.push_back({prefix + "force", "N", {"x", "y", "z"}, [&c](double* out) {
-                              Vec3 sum = Vec3::Zero();
-                              for (const PartDirection& d : c.directions) {
-                                sum += (d.segments == 1 ? 1 : -1) * d.scattered.on_surface;
-                              }
-                              for (int k = 0; k < 3; ++k) out[k] = sum[k];
-                            }});
-  scene.measures.push_back({prefix + "active", "1", {"value"}, [&c](double* out) {
-                              *out = 0;
-                              for (const PartDirection& d : c.directions) {
-                                *out += static_cast<double>(d.scattered.active);
-                              }
-                            }});
-  scene.measures.push_back(
-      {prefix + "overlaps", "1", {"value"}, [&c](double* out) { *out = c.numbers[2]; }});
-  scene.measures.push_back(
-      {prefix + "overlap_depth", "m", {"value"}, [&c](double* out) { *out = c.numbers[3]; }});
+std::size_t active_pairs(const PartContact& c) {
+  std::size_t n = 0;
+  for (const PartDirection& d : c.directions) n += static_cast<std::size_t>(d.scattered.active);
+  return n;
+}
+
+void track(Scene& scene, PartContact& c) {
+  const auto none = GhostRule::none;
+  std::vector<Field> fields{plain_field("numbers", "", "", Over::scene, c.numbers, 1, none)};
+  for (std::size_t k = 0; k < c.sides.size(); ++k) {
+    fields.push_back(line_field(fmt::format("{}.x_search", k), "m", "", Over::scene,
+                                c.sides[k].x_search, 0, 3, none));
+  }
+  for (PartDirection& d : c.directions) {
+    const std::string of = fmt::format("{}.", d.points);
+    fields.push_back(plain_field(of + "side", "1", "", Over::scene, d.side, 1, none));
+    fields.push_back(plain_field(of + "offset", "m", "", Over::scene, d.offset, 1, none));
+    if (d.tangential.empty()) continue;
+    fields.push_back(line_field(of + "tangential", "N", "", Over::scene, d.tangential, 0, 3, none));
+  }
+  track_contact(scene, c.name, std::move(fields),
+                {.force = [&c] { return force_on_second(c); },
+                 .active = [&c] { return active_pairs(c); },
+                 .numbers = &c.numbers,
+                 .overlaps = 2});
 }
 
 void find_paths(const Scene& scene, const PartContact& c, PartDirection& d, const Step& step) {
@@ -168,8 +162,7 @@ PartContact& make_part_contact(Scene& scene, const std::string& name, std::array
   for (std::size_t k = 0; k < 2; ++k) c.sides[k] = make_part_side(scene, parts[k], data[k]);
   if (!c.sides[1].line) add_direction(c, 0, friction);
   if (both_ways && !c.sides[0].line) add_direction(c, 1, friction);
-  track_fields(scene, c);
-  add_measures(scene, c);
+  track(scene, c);
   scene.after_restart.push_back([&c] {
     if (c.numbers[0] >= 0) make_part_lists(c);
   });

@@ -6,6 +6,7 @@
 
 #include "contact/part_contact.hpp"
 #include "contact/planes.hpp"
+#include "contact/track_contact.hpp"
 
 namespace gannet {
 
@@ -111,31 +112,18 @@ void scatter(Scene& scene, PartOnPlanes& c, PartMeeting& meeting) {
   }
 }
 
-void track_fields(Scene& scene, PartOnPlanes& c) {
-  const std::string prefix = "contact." + c.name + ".";
+void track(Scene& scene, PartOnPlanes& c) {
   const auto none = GhostRule::none;
-  const auto track = [&](Field f) {
-    f.owner = "contact " + c.name;
-    scene.fields.push_back(std::move(f));
-  };
-  track(plain_field(prefix + "numbers", "", "", Over::scene, c.numbers, 1, none));
-  track(plain_field(prefix + "offset", "m", "", Over::scene, c.offset, 1, none));
-  if (c.tangential.empty()) return;
-  track(line_field(prefix + "tangential", "N", "", Over::scene, c.tangential, 0, 3, none));
-}
-
-void add_measures(Scene& scene, PartOnPlanes& c) {
-  const std::string prefix = "contact." + c.name + ".";
-  scene.measures.push_back({prefix + "force", "N", {"x", "y", "z"}, [&c](double* out) {
-                              for (int k = 0; k < 3; ++k) out[k] = -c.on_planes[k];
-                            }});
-  scene.measures.push_back({prefix + "active", "1", {"value"}, [&c](double* out) {
-                              *out = static_cast<double>(c.touches.size());
-                            }});
-  scene.measures.push_back(
-      {prefix + "overlaps", "1", {"value"}, [&c](double* out) { *out = c.numbers[1]; }});
-  scene.measures.push_back(
-      {prefix + "overlap_depth", "m", {"value"}, [&c](double* out) { *out = c.numbers[2]; }});
+  std::vector<Field> fields{plain_field("numbers", "", "", Over::scene, c.numbers, 1, none),
+                            plain_field("offset", "m", "", Over::scene, c.offset, 1, none)};
+  if (!c.tangential.empty()) {
+    fields.push_back(line_field("tangential", "N", "", Over::scene, c.tangential, 0, 3, none));
+  }
+  track_contact(scene, c.name, std::move(fields),
+                {.force = [&c] { return Vec3(-c.on_planes); },
+                 .active = [&c] { return c.touches.size(); },
+                 .numbers = &c.numbers,
+                 .overlaps = 1});
 }
 
 }  // namespace
@@ -152,8 +140,7 @@ PartOnPlanes& make_part_on_planes(Scene& scene, const std::string& name, int num
   const std::size_t n = c.planes.size() * c.side.surface.node.size();
   c.offset.assign(n, 0);
   if (friction) c.tangential.resize(n);
-  track_fields(scene, c);
-  add_measures(scene, c);
+  track(scene, c);
   return c;
 }
 
