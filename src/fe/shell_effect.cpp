@@ -1,4 +1,4 @@
-// Shells as a part of a case: keys, drafts, state and operations.
+// Shells as a part of a case: drafts, state and operations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,85 +13,14 @@
 #include "fe/mass_scaling.hpp"
 #include "fe/shell.hpp"
 #include "fe/shell_fibres.hpp"
+#include "fe/shell_keys.hpp"
+#include "fe/shell_part.hpp"
 #include "mesh/mesh_keys.hpp"
 #include "scene/surface_data.hpp"
 
 namespace gannet {
 
 namespace {
-
-std::vector<Key> own_keys() {
-  const std::vector<Key> hourglass{
-      {.name = "type",
-       .kind = Kind::choice,
-       .text = "stiffness: an elastic force that remembers; viscous: a damping force",
-       .fallback = "stiffness",
-       .choices = {"stiffness", "viscous"}},
-      {.name = "coefficient",
-       .text = "strength of the hourglass control, customarily 0.01 to 0.05",
-       .fallback = "0.03",
-       .limits = between(0, 0.15)}};
-  return {
-      {.name = "material",
-       .kind = Kind::reference,
-       .text = "solid that the shell is made of",
-       .required = true,
-       .refers_to = "materials"},
-      {.name = "thickness",
-       .unit = dim::length,
-       .text = "thickness of the shell",
-       .required = true,
-       .limits = positive()},
-      {.name = "points",
-       .kind = Kind::integer,
-       .text = "points through the thickness; unless said 5, or 3 where the solid is elastic",
-       .limits = between(1, max_shell_points)},
-      {.name = "formulation",
-       .kind = Kind::choice,
-       .text = "belytschko_lin_tsay: one point in the plane, fast, with hourglass control; "
-               "fully_integrated: 2 x 2 points and assumed shear, accurate",
-       .fallback = "belytschko_lin_tsay",
-       .choices = {"belytschko_lin_tsay", "fully_integrated"}},
-      {.name = "hourglass",
-       .kind = Kind::map,
-       .text = "control of the modes that one point of integration does not see",
-       .keys = hourglass},
-      {.name = "thickness_change",
-       .kind = Kind::flag,
-       .text = "the thickness follows the stretching of the shell",
-       .fallback = "no"},
-      {.name = "collapse",
-       .kind = Kind::choice,
-       .text = "what happens where an element has shrunk to nothing or turned inside out",
-       .fallback = "stop",
-       .choices = {"stop", "erode"}},
-      {.name = "collapse_ratio",
-       .text = "area over area at the start at which an element has collapsed",
-       .fallback = "0.01",
-       .limits = {.lowest = 0, .highest = 1, .lowest_open = true, .highest_open = true}},
-      {.name = "offset",
-       .unit = dim::length,
-       .text = "distance of the middle of the shell from its nodes, along the normals",
-       .fallback = "0"},
-      {.name = "section_forces",
-       .kind = Kind::flag,
-       .text = "show membrane forces, bending moments and shear forces in VTK",
-       .fallback = "no"},
-      {.name = "warping",
-       .kind = Kind::flag,
-       .text = "elements whose corners lie in no plane bend as they should (warping correction)",
-       .fallback = "yes"},
-      {.name = "dt_factor",
-       .text = "share of the stable step of the elements that is used",
-       .fallback = "0.9",
-       .limits = {.lowest = 0, .highest = 1, .lowest_open = true}}};
-}
-
-std::vector<Key> shell_keys() {
-  std::vector<Key> keys = own_keys();
-  for (Key& key : stiffness_damping_keys()) keys.push_back(std::move(key));
-  return keys;
-}
 
 Schema schema() {
   return element_schema(
@@ -111,139 +40,6 @@ void add_parts(const Keys& root, Draft& draft) {
     set_mesh(part, mesh.points, mesh.quads, p);
     draft.parts.push_back(std::move(p));
   }
-}
-
-ShellSection read_section(const Keys& shell, const ElasticPlastic& material) {
-  ShellSection section;
-  section.thickness = shell.number("thickness");
-  if (shell.has("formulation") && shell.word("formulation") == "fully_integrated") {
-    section.kind = ShellKind::quad;
-    for (const char* key : {"hourglass", "warping"}) {
-      if (shell.given(key)) {
-        shell.complain(key, "has no meaning where shells are fully integrated");
-      }
-    }
-  }
-  section.points = shell.has("points") ? shell.integer("points") : (material.plastic() ? 5 : 3);
-  if (shell.has("hourglass")) {
-    const Keys hourglass = shell.map("hourglass");
-    if (hourglass.has("type") && hourglass.word("type") == "viscous") {
-      section.hourglass = HourglassForm::viscous;
-    }
-    section.hourglass_coefficient =
-        hourglass.number_or("coefficient", section.hourglass_coefficient);
-  }
-  section.offset = shell.number_or("offset", 0);
-  section.damping = read_stiffness_damping(shell);
-  section.smallest_ratio = shell.number_or("collapse_ratio", section.smallest_ratio);
-  section.thickness_changes = shell.has("thickness_change") && shell.flag("thickness_change");
-  section.warping = !shell.has("warping") || shell.flag("warping");
-  section.dt_factor = shell.number_or("dt_factor", section.dt_factor);
-  return section;
-}
-
-/// The blocks of a part, one for each kind of element it has, and what output shows of it, by cell.
-struct ShellPart {
-  std::string name;
-  int part = -1;
-  bool erodes = false;  ///< elements that have collapsed leave; else they stop the run
-  std::vector<ShellBlock*> blocks;
-  Array<double> thickness, stress, plastic, damage;
-  std::vector<std::uint8_t> gone;  ///< per cell whether it has left; empty where none can
-  Array<double> membrane_force, moment, shear_force;
-};
-
-/// Found by scene.store.
-struct ShellParts {
-  std::deque<ShellPart> list;
-};
-
-/// Copies numbers first, first + 1, ... of the `stride` that an element has in `from` to its cell.
-void show_by_cell(const ShellBlock& block, const Array<double>& from, std::size_t stride,
-                  std::size_t first, std::size_t components, Array<double>& to) {
-  for (Index e = 0; e < block.n_elements; ++e) {
-    const auto element = static_cast<std::size_t>(e);
-    const auto cell = static_cast<std::size_t>(block.cell(e));
-    for (std::size_t k = 0; k < components; ++k) {
-      to[components * cell + k] = from[stride * element + first + k];
-    }
-  }
-}
-
-/// A field over the cells of a part that prepare() fills.
-void add_shown(Scene& scene, const ShellPart& part, const char* name, const char* unit,
-               const char* vtk, Array<double>& values, int components,
-               std::function<void(ShellBlock&)> prepare) {
-  const auto n_cells =
-      static_cast<std::size_t>(scene.parts[static_cast<std::size_t>(part.part)].n_cells());
-  values.assign(static_cast<std::size_t>(components) * n_cells, 0);
-  Field field =
-      plain_field(part.name + name, unit, vtk, Over::cells, values, components, GhostRule::none);
-  field.owner = "shell";
-  field.prepare = [&part, prepare] {
-    for (ShellBlock* block : part.blocks) prepare(*block);
-  };
-  track_shown(scene, part.part, std::move(field));
-}
-
-void track_section_forces(Scene& scene, ShellPart& part) {
-  const auto add = [&](const char* name, const char* unit, const char* vtk, Array<double>& values,
-                       std::size_t first, std::size_t components) {
-    add_shown(scene, part, name, unit, vtk, values, static_cast<int>(components),
-              [&scene, &values, first, components](ShellBlock& block) {
-                show_section_forces(block, scene.nodes.x);
-                show_by_cell(block, block.forces_shown, 15, first, components, values);
-              });
-  };
-  add(".membrane_force", "N/m", "MembraneForce", part.membrane_force, 0, 6);
-  add(".bending_moment", "N", "BendingMoment", part.moment, 6, 6);
-  add(".shear_force", "N/m", "ShearForce", part.shear_force, 12, 3);
-}
-
-void count_eroded(Scene& scene, const ShellPart& part) {
-  scene.measures.push_back(
-      {"shell." + part.name + ".eroded", "", {"value"}, [&part](double* n_out) {
-         *n_out = 0;
-         for (const ShellBlock* block : part.blocks) *n_out += n_eroded(*block);
-       }});
-}
-
-/// The whole states for checkpoints; for output, what is derived from them when it is asked for.
-void track(Scene& scene, ShellPart& part, bool section_forces) {
-  for (ShellBlock* block : part.blocks) {
-    const int n_values = block->layout.n_values();
-    const char* name = block == part.blocks.front() ? ".state" : ".triangles.state";
-    Field whole = element_field(part.name + name, "", part.part, block->state, n_values, 0,
-                                n_values, [block] { return block->n_elements; });
-    whole.owner = "shell";
-    scene.fields.push_back(std::move(whole));
-  }
-  add_shown(scene, part, ".thickness", "m", "Thickness", part.thickness, 1,
-            [&part](ShellBlock& block) {
-              for (Index e = 0; e < block.n_elements; ++e) {
-                part.thickness[static_cast<std::size_t>(block.cell(e))] =
-                    block.value(e, block.layout.thickness());
-              }
-            });
-  scene.fields.back().prepare();  // known from the start, and cheap
-  add_shown(scene, part, ".stress", "Pa", "Stress", part.stress, 6,
-            [&scene, &part](ShellBlock& block) {
-              show_stress(block, scene.nodes.x);
-              show_by_cell(block, block.stress_shown, 6, 0, 6, part.stress);
-            });
-  if (section_forces) track_section_forces(scene, part);
-  if (part.erodes || part.blocks.front()->material.failure.given()) count_eroded(scene, part);
-  if (!part.blocks.front()->material.plastic()) return;
-  add_shown(scene, part, ".plastic_strain", "", "PlasticStrain", part.plastic, 1,
-            [&part](ShellBlock& block) {
-              show_plastic_strain(block);
-              show_by_cell(block, block.plastic_shown, 1, 0, 1, part.plastic);
-            });
-  if (!part.blocks.front()->material.failure.given()) return;
-  add_shown(scene, part, ".damage", "", "Damage", part.damage, 1, [&part](ShellBlock& block) {
-    show_damage(block);
-    show_by_cell(block, block.damage_shown, 1, 0, 1, part.damage);
-  });
 }
 
 /// The cells of one kind out of those of a part: quadrilaterals, or triangles, which repeat their
@@ -341,7 +137,7 @@ void state(const Keys& root, Scene& scene) {
     const Part& part = scene.parts[static_cast<std::size_t>(number)];
     const Keys given = keys.map("shell");
     const ElasticPlastic material = read_but_rubber(root, given);
-    const ShellSection section = read_section(given, material);
+    const ShellSection section = read_shell_section(given, material);
     ShellPart& shell = scene.store.get<ShellParts>().list.emplace_back();
     shell.name = part.name;
     shell.part = number;
@@ -355,7 +151,7 @@ void state(const Keys& root, Scene& scene) {
     }
     refuse_for_triangles(given, shell);
     scale_masses(keys, shell, scene);
-    track(scene, shell, given.has("section_forces") && given.flag("section_forces"));
+    track_shells(scene, shell, given.has("section_forces") && given.flag("section_forces"));
     auto& surfaces = scene.store.get<SurfaceData>().of_part;
     surfaces.resize(std::max(surfaces.size(), scene.parts.size()));
     if (shell.erodes || material.failure.given())

@@ -11,6 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "fe/shell.hpp"
+#include "fe/shell_shown.hpp"
 #include "scene/draft.hpp"
 #include "time/leapfrog.hpp"
 #include "time/step.hpp"

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "fe/shell_shown.hpp"
 #include "shell_testing.hpp"
 
 using namespace gannet;

@@ -1,6 +1,7 @@
 // Patch tests: fields that an element must reproduce exactly.
 #include <catch2/catch.hpp>
 
+#include "fe/shell_shown.hpp"
 #include "shell_testing.hpp"
 
 using namespace gannet;
