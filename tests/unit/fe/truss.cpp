@@ -133,7 +133,8 @@ TEST_CASE("truss: an element that breaks carries nothing and hands its energy ov
   CHECK(work.internal == Approx(-250).epsilon(1e-10));
   CHECK(work.eroded == Approx(250 + 0.5 * 1e5 * 0.003).epsilon(1e-10));
   CHECK(scene.nodes.f[2].x == 0);
-  CHECK(scene.nodes.f[1].x == 0);
+  // What is left is the other element's: EA times the rounding of its strain, the root of a square.
+  CHECK(std::abs(scene.nodes.f[1].x) <= 2e6 * 2.3e-16);
   work = truss_pass(block, scene.nodes, 1e-5);
   CHECK(block.n_broken == 1);
   CHECK(work.eroded == 0);
