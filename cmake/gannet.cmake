@@ -52,6 +52,12 @@ function(gannet_room NAME)
         # differently, so that the bits of an element would depend on the lane it is in.
         target_compile_options(${objects} PRIVATE -ffp-contract=off)
       endif()
+      # Structures of vectors are copied a register at a time: by halves, what reads them whole waits
+      # until the halves have arrived in memory. (clang does so by itself.)
+      if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+        set(register $<IF:$<STREQUAL:${set},avx512>,512,256>)
+        target_compile_options(${objects} PRIVATE -mmove-max=${register} -mstore-max=${register})
+      endif()
       if(set STREQUAL avx512)
         # g++ 12 warns of its own intrinsics (their "undefined" operand) once they are inlined.
         target_compile_options(${objects} PRIVATE -mavx512f -mavx512dq -mavx512vl -mavx512bw
