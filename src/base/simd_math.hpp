@@ -58,33 +58,38 @@ GANNET_INLINE Vec8 times_power_of_two(Vec8 a, Vec8 n) {
 /// Natural logarithm; a > 0, no denormal.
 ///   a = m 2^e with m in [0.7, 1.4], z = (m - 1)/(m + 1): ln a = e ln 2 + 2 z (1 + z^2/3 + z^4/5
 ///   ...)
-GANNET_INLINE Vec8 log_of(Vec8 a) {
-  Vec8 m;
-  Vec8 e;
+template <class V>
+GANNET_INLINE V log_of_lanes(V a) {
+  V m;
+  V e;
   split(a, m, e);
-  const auto large = less(Vec8(1.4142135623730951), m);
-  m = select(large, Vec8(0.5) * m, m);
-  e = select(large, e + Vec8(1.0), e);
-  const Vec8 f = m - Vec8(1.0);
-  const Vec8 z = f / (m + Vec8(1.0));
-  const Vec8 w = z * z;
-  Vec8 p(1.0 / 21);
-  for (int n = 19; n > 1; n -= 2) p = fma(p, w, Vec8(1.0 / n));
+  const auto large = less(V(1.4142135623730951), m);
+  m = select(large, V(0.5) * m, m);
+  e = select(large, e + V(1.0), e);
+  const V f = m - V(1.0);
+  const V z = f / (m + V(1.0));
+  const V w = z * z;
+  V p(1.0 / 21);
+  for (int n = 19; n > 1; n -= 2) p = fma(p, w, V(1.0 / n));
   // 2 z = f - f z, so that the leading term is exact; ln 2 in two parts, the first of 32 bits.
-  const Vec8 rest = z * fma(Vec8(2.0) * w, p, -f);
-  return fma(e, Vec8(0x1.62e42fefp-1), f + fma(e, Vec8(0x1.473de6af278edp-34), rest));
+  const V rest = z * fma(V(2.0) * w, p, -f);
+  return fma(e, V(0x1.62e42fefp-1), f + fma(e, V(0x1.473de6af278edp-34), rest));
 }
 
 /// e^a; a within +-700.
 ///   a = n ln 2 + r, |r| < 0.35: 2^n (1 + r + r^2/2 + ... + r^13/13!)
-GANNET_INLINE Vec8 exp_of(Vec8 a) {
-  const Vec8 n = rounded(a * Vec8(1.4426950408889634));
-  const Vec8 r = fnma(n, Vec8(0x1.473de6af278edp-34), fnma(n, Vec8(0x1.62e42fefp-1), a));
-  Vec8 p(1.0 / 6227020800.0);
+template <class V>
+GANNET_INLINE V exp_of_lanes(V a) {
+  const V n = rounded(a * V(1.4426950408889634));
+  const V r = fnma(n, V(0x1.473de6af278edp-34), fnma(n, V(0x1.62e42fefp-1), a));
+  V p(1.0 / 6227020800.0);
   constexpr double factorial[] = {479001600.0, 39916800.0, 3628800.0, 362880.0, 40320.0, 5040.0,
                                   720.0,       120.0,      24.0,      6.0,      2.0};
-  for (const double k : factorial) p = fma(p, r, Vec8(1.0 / k));
-  return times_power_of_two(fma(p * r, r, r) + Vec8(1.0), n);
+  for (const double k : factorial) p = fma(p, r, V(1.0 / k));
+  return times_power_of_two(fma(p * r, r, r) + V(1.0), n);
 }
+
+GANNET_INLINE Vec8 log_of(Vec8 a) { return log_of_lanes(a); }
+GANNET_INLINE Vec8 exp_of(Vec8 a) { return exp_of_lanes(a); }
 
 }  // namespace gannet::GANNET_ISA_NS

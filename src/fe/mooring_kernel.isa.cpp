@@ -1,6 +1,6 @@
 #include "fe/mooring_kernel.hpp"
 
-#include "fe/vec8x3.hpp"
+#include "fe/vec_x3.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -41,8 +41,8 @@ struct Nodes8 {
 GANNET_INLINE Nodes8 gather_nodes(const LinePass& pass, const Numbers& n, std::int32_t block) {
   const std::int32_t* nodes = pass.nodes + 24 * static_cast<std::int64_t>(block);
   Nodes8 a;
-  const Vec8x3 before = gather_corner(pass.x, nodes, 0);
-  const Vec8x3 after = gather_corner(pass.x, nodes, 2);
+  const Vec8x3 before = gather_corner<Vec8>(pass.x, nodes, 0);
+  const Vec8x3 after = gather_corner<Vec8>(pass.x, nodes, 2);
   Vec8 line[4];
   gather_lines(pass.x, nodes + 8, 1, line);
   a.x = {line[0], line[1], line[2]};
@@ -50,7 +50,7 @@ GANNET_INLINE Nodes8 gather_nodes(const LinePass& pass, const Numbers& n, std::i
   gather_lines(pass.v, nodes + 8, 1, line);
   a.v = {line[0], line[1], line[2]};
   a.inverse_m = line[3];
-  a.f = gather_corner(pass.f, nodes, 1);
+  a.f = gather_corner<Vec8>(pass.f, nodes, 1);
   a.d = after - before;
   a.bend = before.z + after.z - Vec8(2.0) * a.x.z;
   a.length = n.get(line_length);
@@ -181,7 +181,7 @@ struct Paths {
     Vec8 line[4];
     gather_lines(pass.v, nodes + 8, 1, line);
     const Vec8x3 v{line[0], line[1], line[2]};
-    const Vec8x3 f = gather_corner(pass.f, nodes, 1);
+    const Vec8x3 f = gather_corner<Vec8>(pass.f, nodes, 1);
     const Vec8 kick = line[3] * Vec8(0.5 * (pass.dt_old + pass.dt));
     before = scaled(v - scaled(f, kick), Vec8(0.5 * pass.dt_old));
     after = scaled(v, Vec8(0.5 * pass.dt));

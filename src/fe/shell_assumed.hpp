@@ -38,34 +38,34 @@ namespace gannet::GANNET_ISA_NS {
 /// Frame of eight elements with N corners, and the corners in it.
 template <int N>
 struct FlatGeometry {
-  Vec8x3 e1, e2, e3;
-  Vec8 area;
-  Vec8 x[N], y[N], z[N];  ///< [m]
-  Vec8 B1[N], B2[N];      ///< gradients at the middle [1/m]
-  Vec8 g11, g22, g12;     ///< sums of B1 B1, B2 B2, B1 B2
+  VecX3 e1, e2, e3;
+  Vec area;
+  Vec x[N], y[N], z[N];  ///< [m]
+  Vec B1[N], B2[N];      ///< gradients at the middle [1/m]
+  Vec g11, g22, g12;     ///< sums of B1 B1, B2 B2, B1 B2
 };
 
 /// The frame with e3 along n from directions of the sides; returns 1/|n|.
 template <int N>
-GANNET_INLINE Vec8 flat_frame(const Vec8x3& n, const Vec8x3& g_xi, const Vec8x3& g_eta,
-                              FlatGeometry<N>& g) {
-  const Vec8 n2 = dot(n, n);
-  const Vec8 inverse = rsqrt(n2);
-  g.area = Vec8(0.5) * n2 * inverse;
+GANNET_INLINE Vec flat_frame(const VecX3& n, const VecX3& g_xi, const VecX3& g_eta,
+                             FlatGeometry<N>& g) {
+  const Vec n2 = dot(n, n);
+  const Vec inverse = rsqrt(n2);
+  g.area = Vec(0.5) * n2 * inverse;
   g.e3 = scaled(n, inverse);
-  const Vec8x3 along = g_xi - scaled(g.e3, dot(g_xi, g.e3)) + cross(g_eta, g.e3);
+  const VecX3 along = g_xi - scaled(g.e3, dot(g_xi, g.e3)) + cross(g_eta, g.e3);
   g.e1 = scaled(along, rsqrt(dot(along, along)));
   g.e2 = cross(g.e3, g.e1);
   return inverse;
 }
 
 template <int N>
-GANNET_INLINE void place_corners(const Vec8x3 x[N], FlatGeometry<N>& g) {
-  Vec8x3 middle = x[0];
+GANNET_INLINE void place_corners(const VecX3 x[N], FlatGeometry<N>& g) {
+  VecX3 middle = x[0];
   for (int a = 1; a < N; ++a) middle = middle + x[a];
-  middle = scaled(middle, Vec8(1.0 / N));
+  middle = scaled(middle, Vec(1.0 / N));
   for (int a = 0; a < N; ++a) {
-    const Vec8x3 r = x[a] - middle;
+    const VecX3 r = x[a] - middle;
     g.x[a] = dot(r, g.e1);
     g.y[a] = dot(r, g.e2);
     g.z[a] = dot(r, g.e3);
@@ -74,7 +74,7 @@ GANNET_INLINE void place_corners(const Vec8x3 x[N], FlatGeometry<N>& g) {
 
 template <int N>
 GANNET_INLINE void add_gram(FlatGeometry<N>& g) {
-  g.g11 = g.g22 = g.g12 = Vec8(0.0);
+  g.g11 = g.g22 = g.g12 = Vec(0.0);
   for (int a = 0; a < N; ++a) {
     g.g11 += g.B1[a] * g.B1[a];
     g.g22 += g.B2[a] * g.B2[a];
@@ -83,31 +83,31 @@ GANNET_INLINE void add_gram(FlatGeometry<N>& g) {
 }
 
 /// Larger eigenvalue of [a, c; c, b].
-GANNET_INLINE Vec8 larger_eigenvalue(Vec8 a, Vec8 b, Vec8 c) {
-  const Vec8 half_gap = Vec8(0.5) * (a - b);
-  return Vec8(0.5) * (a + b) + sqrt(half_gap * half_gap + c * c);
+GANNET_INLINE Vec larger_eigenvalue(Vec a, Vec b, Vec c) {
+  const Vec half_gap = Vec(0.5) * (a - b);
+  return Vec(0.5) * (a + b) + sqrt(half_gap * half_gap + c * c);
 }
 
 /// Displacements of the corners and tips of fibres without the rotation of the element, over a
 /// step; also what belongs to them in power: forces and couples.
 template <int N>
 struct Relative {
-  Vec8 ux[N], uy[N], uz[N];  ///< [m], [N]
-  Vec8 px[N], py[N];         ///< psi [-], [N m]
+  Vec ux[N], uy[N], uz[N];  ///< [m], [N]
+  Vec px[N], py[N];         ///< psi [-], [N m]
 };
 
 /// Components of t of the corners [-].
 template <int N>
 struct Leaning {
-  Vec8 x[N], y[N];
+  Vec x[N], y[N];
 };
 
 template <int N>
 GANNET_INLINE Leaning<N> load_leaning(const double* state) {
   Leaning<N> t;
   for (int a = 0; a < N; ++a) {
-    t.x[a] = Vec8::load(state + 16 * a);
-    t.y[a] = Vec8::load(state + 16 * a + 8);
+    t.x[a] = Vec::load(state + 16 * a);
+    t.y[a] = Vec::load(state + 16 * a + 8);
   }
   return t;
 }
@@ -115,24 +115,24 @@ GANNET_INLINE Leaning<N> load_leaning(const double* state) {
 /// u dt and psi dt from the velocities [m/s] and angular velocities [rad/s] of the corners.
 template <int N>
 GANNET_INLINE Relative<N> relative_motion(const FlatGeometry<N>& g, const Leaning<N>& t,
-                                          const Vec8x3 v[N], const Vec8x3 w[N], Vec8 dt) {
-  Vec8x3 L1 = scaled(v[0], g.B1[0]);
-  Vec8x3 L2 = scaled(v[0], g.B2[0]);
+                                          const VecX3 v[N], const VecX3 w[N], Vec dt) {
+  VecX3 L1 = scaled(v[0], g.B1[0]);
+  VecX3 L2 = scaled(v[0], g.B2[0]);
   for (int a = 1; a < N; ++a) {
     L1 = L1 + scaled(v[a], g.B1[a]);
     L2 = L2 + scaled(v[a], g.B2[a]);
   }
-  const Vec8 s = Vec8(0.5) * dt * (dot(L1, g.e2) - dot(L2, g.e1));
-  const Vec8 L1z = dt * dot(L1, g.e3);
-  const Vec8 L2z = dt * dot(L2, g.e3);
+  const Vec s = Vec(0.5) * dt * (dot(L1, g.e2) - dot(L2, g.e1));
+  const Vec L1z = dt * dot(L1, g.e3);
+  const Vec L2z = dt * dot(L2, g.e3);
   Relative<N> r;
   for (int a = 0; a < N; ++a) {
-    const Vec8x3 d = scaled(v[a] - v[0], dt);
+    const VecX3 d = scaled(v[a] - v[0], dt);
     r.ux[a] = dot(d, g.e1) + L1z * g.z[a] + s * g.y[a];
     r.uy[a] = dot(d, g.e2) + L2z * g.z[a] - s * g.x[a];
     r.uz[a] = dot(d, g.e3) - L1z * g.x[a] - L2z * g.y[a];
-    const Vec8x3 turn = scaled(w[a], dt);
-    const Vec8 left = s - dot(turn, g.e3);
+    const VecX3 turn = scaled(w[a], dt);
+    const Vec left = s - dot(turn, g.e3);
     r.px[a] = dot(turn, g.e2) + t.y[a] * left + L1z;
     r.py[a] = L2z - dot(turn, g.e1) - t.x[a] * left;
   }
@@ -143,18 +143,18 @@ GANNET_INLINE Relative<N> relative_motion(const FlatGeometry<N>& g, const Leanin
 /// to u and psi.
 template <int N>
 GANNET_INLINE void nodal_forces(const FlatGeometry<N>& g, const Leaning<N>& t, const Relative<N>& r,
-                                Vec8x3 f[N], Vec8x3 m[N]) {
-  Vec8 X1(0.0);
-  Vec8 X2(0.0);
-  Vec8 X3(0.0);
+                                VecX3 f[N], VecX3 m[N]) {
+  Vec X1(0.0);
+  Vec X2(0.0);
+  Vec X3(0.0);
   for (int a = 0; a < N; ++a) {
-    const Vec8 S = r.px[a] * t.y[a] - r.py[a] * t.x[a];
+    const Vec S = r.px[a] * t.y[a] - r.py[a] * t.x[a];
     X1 += r.px[a] + r.ux[a] * g.z[a] - r.uz[a] * g.x[a];
     X2 += r.py[a] + r.uy[a] * g.z[a] - r.uz[a] * g.y[a];
     X3 += r.ux[a] * g.y[a] - r.uy[a] * g.x[a] + S;
     m[a] = scaled(g.e2, r.px[a]) - scaled(g.e1, r.py[a]) - scaled(g.e3, S);
   }
-  X3 = Vec8(0.5) * X3;
+  X3 = Vec(0.5) * X3;
   for (int a = 0; a < N; ++a) {
     f[a] = scaled(g.e1, r.ux[a] - g.B2[a] * X3) + scaled(g.e2, r.uy[a] + g.B1[a] * X3) +
            scaled(g.e3, r.uz[a] + g.B1[a] * X1 + g.B2[a] * X2);
@@ -163,9 +163,9 @@ GANNET_INLINE void nodal_forces(const FlatGeometry<N>& g, const Leaning<N>& t, c
 
 /// g_ij of the top [m].
 template <int N>
-GANNET_INLINE Vec8 side_shear(const FlatGeometry<N>& g, const Leaning<N>& t, const Relative<N>& r,
-                              int i, int j) {
-  return Vec8(0.5) *
+GANNET_INLINE Vec side_shear(const FlatGeometry<N>& g, const Leaning<N>& t, const Relative<N>& r,
+                             int i, int j) {
+  return Vec(0.5) *
              ((g.x[j] - g.x[i]) * (r.px[i] + r.px[j]) + (g.y[j] - g.y[i]) * (r.py[i] + r.py[j]) +
               (r.ux[j] - r.ux[i]) * (t.x[i] + t.x[j]) + (r.uy[j] - r.uy[i]) * (t.y[i] + t.y[j])) +
          r.uz[j] - r.uz[i];
@@ -174,12 +174,12 @@ GANNET_INLINE Vec8 side_shear(const FlatGeometry<N>& g, const Leaning<N>& t, con
 /// The transpose: adds what the force G [N] that belongs to g_ij does to u and psi.
 template <int N>
 GANNET_INLINE void add_side_shear(const FlatGeometry<N>& g, const Leaning<N>& t, int i, int j,
-                                  Vec8 G, Relative<N>& r) {
-  const Vec8 half = Vec8(0.5) * G;
-  const Vec8 cx = half * (g.x[j] - g.x[i]);
-  const Vec8 cy = half * (g.y[j] - g.y[i]);
-  const Vec8 fx = half * (t.x[i] + t.x[j]);
-  const Vec8 fy = half * (t.y[i] + t.y[j]);
+                                  Vec G, Relative<N>& r) {
+  const Vec half = Vec(0.5) * G;
+  const Vec cx = half * (g.x[j] - g.x[i]);
+  const Vec cy = half * (g.y[j] - g.y[i]);
+  const Vec fx = half * (t.x[i] + t.x[j]);
+  const Vec fy = half * (t.y[i] + t.y[j]);
   r.px[i] += cx;
   r.py[i] += cy;
   r.px[j] += cx;
@@ -194,9 +194,9 @@ GANNET_INLINE void add_side_shear(const FlatGeometry<N>& g, const Leaning<N>& t,
 
 /// Sums over the in-plane points: what belongs to the fields of the middle.
 struct MiddleForces {
-  Vec8 nxx = Vec8(0.0), nyy = Vec8(0.0), nxy = Vec8(0.0);  ///< [N m]
-  Vec8 mxx = Vec8(0.0), myy = Vec8(0.0), mxy = Vec8(0.0);  ///< [N m^2]
-  GANNET_INLINE void add(const ShellResultants& r, Vec8 area) {
+  Vec nxx = Vec(0.0), nyy = Vec(0.0), nxy = Vec(0.0);  ///< [N m]
+  Vec mxx = Vec(0.0), myy = Vec(0.0), mxy = Vec(0.0);  ///< [N m^2]
+  GANNET_INLINE void add(const ShellResultants& r, Vec area) {
     nxx += area * r.nxx;
     nyy += area * r.nyy;
     nxy += area * r.nxy;
@@ -219,8 +219,8 @@ GANNET_INLINE void add_middle(const FlatGeometry<N>& g, const MiddleForces& s, R
 
 /// Sum of b_a value_a.
 template <int N>
-GANNET_INLINE Vec8 weighted(const Vec8 b[N], const Vec8 value[N]) {
-  Vec8 sum = b[0] * value[0];
+GANNET_INLINE Vec weighted(const Vec b[N], const Vec value[N]) {
+  Vec sum = b[0] * value[0];
   for (int a = 1; a < N; ++a) sum += b[a] * value[a];
   return sum;
 }
@@ -240,7 +240,7 @@ GANNET_INLINE ShellIncrements middle_increments(const FlatGeometry<N>& g, const 
 
 /// Larger eigenvalue of the Gram matrix of the gradients [1/m^2].
 template <int N>
-GANNET_INLINE Vec8 largest_gradient(const FlatGeometry<N>& g) {
+GANNET_INLINE Vec largest_gradient(const FlatGeometry<N>& g) {
   return larger_eigenvalue(g.g11, g.g22, g.g12);
 }
 
@@ -248,10 +248,10 @@ GANNET_INLINE Vec8 largest_gradient(const FlatGeometry<N>& g) {
 /// mass of a corner): p the largest slope; turning counts (1 + p^2) times as much, and bending and
 /// shear see motion in the plane with the share p.
 template <int N>
-GANNET_INLINE Vec8 bound_of_leaning(const Leaning<N>& t, Vec8 membrane, Vec8 bending) {
-  Vec8 p2(0.0);
+GANNET_INLINE Vec bound_of_leaning(const Leaning<N>& t, Vec membrane, Vec bending) {
+  Vec p2(0.0);
   for (int a = 0; a < N; ++a) p2 = max(p2, t.x[a] * t.x[a] + t.y[a] * t.y[a]);
-  const Vec8 w2 = Vec8(1.0) + p2;
+  const Vec w2 = Vec(1.0) + p2;
   return larger_eigenvalue(membrane + bending * p2, bending * w2, bending * sqrt(p2 * w2));
 }
 
@@ -260,8 +260,8 @@ template <int N>
 GANNET_INLINE Leaning<N> leaning_halfway(const Leaning<N>& t, const Relative<N>& r) {
   Leaning<N> middle;
   for (int a = 0; a < N; ++a) {
-    middle.x[a] = t.x[a] + Vec8(0.5) * r.px[a];
-    middle.y[a] = t.y[a] + Vec8(0.5) * r.py[a];
+    middle.x[a] = t.x[a] + Vec(0.5) * r.px[a];
+    middle.y[a] = t.y[a] + Vec(0.5) * r.py[a];
   }
   return middle;
 }

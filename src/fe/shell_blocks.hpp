@@ -13,26 +13,26 @@ struct BlockState {
   double* shear;
   double* fibres;
   double* thickness;
-  Vec8 inverse_A0;
+  Vec inverse_A0;
 };
 
 GANNET_INLINE BlockState block_state(const ShellPass& pass, std::int32_t number) {
   const ShellLayout& layout = pass.layout;
   double* all = pass.state + static_cast<std::int64_t>(number) * layout.n_values() * 8;
   return {all, all + 8 * layout.shear(), all + 8 * layout.fibres(), all + 8 * layout.thickness(),
-          Vec8::load(all + 8 * layout.inverse_area())};
+          Vec::load(all + 8 * layout.inverse_area())};
 }
 
 /// The thickness over a point of the plane that still carries something [m].
 template <PointLaw law>
-GANNET_INLINE Vec8 carrying(Vec8 t, const ColumnStress& column) {
+GANNET_INLINE Vec carrying(Vec t, const ColumnStress& column) {
   if constexpr (law != PointLaw::general) return t;
-  return select(less(column.least_damage, Vec8(1.0)), t, Vec8(0.0));
+  return select(less(column.least_damage, Vec(1.0)), t, Vec(0.0));
 }
 
 /// The thickness [m], 0 from now on where every point has failed.
-GANNET_INLINE Vec8 left_of(Vec8 t, Vec8 least_damage, double* thickness) {
-  const Vec8 left = select(less(least_damage, Vec8(1.0)), t, Vec8(0.0));
+GANNET_INLINE Vec left_of(Vec t, Vec least_damage, double* thickness) {
+  const Vec left = select(less(least_damage, Vec(1.0)), t, Vec(0.0));
   left.store(thickness);
   return left;
 }

@@ -22,32 +22,32 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
   const ShellLayout& layout = pass.layout;
   double* state = pass.state + static_cast<std::int64_t>(block) * layout.n_values() * 8;
   CornersOf<4> corners = gather_all<4>(pass, block);
-  const Vec8x3* x = corners.x;
-  const Vec8x3* v = corners.v;
-  Vec8x3* w = corners.w;
+  const VecX3* x = corners.x;
+  const VecX3* v = corners.v;
+  VecX3* w = corners.w;
 
-  Vec8 t = Vec8::load(state + 8 * layout.thickness());
+  Vec t = Vec::load(state + 8 * layout.thickness());
   ShellGeometry half = shell_geometry(corners.middle);
   ShellGeometry now = shell_geometry(x);
   const auto goes_on =
-      sums.shrunk_to(min(half.area, now.area) * Vec8::load(state + 8 * layout.inverse_area()),
+      sums.shrunk_to(min(half.area, now.area) * Vec::load(state + 8 * layout.inverse_area()),
                      c.smallest_ratio, t, block);
   if (leaves_out(goes_on)) {
     make_harmless(corners, goes_on);
-    t = select(goes_on, t, Vec8(0.0));
+    t = select(goes_on, t, Vec(0.0));
     half = shell_geometry(corners.middle);
     now = shell_geometry(x);
   }
   double* fibres = layout.has_fibres ? state + 8 * layout.fibres() : nullptr;
-  if (fibres != nullptr) follow_fibres(half, v, w, fibres, Vec8(pass.dt));
-  const ShellIncrements d = shell_increments(half, v, w, Vec8(pass.dt));
+  if (fibres != nullptr) follow_fibres(half, v, w, fibres, Vec(pass.dt));
+  const ShellIncrements d = shell_increments(half, v, w, Vec(pass.dt));
   ShellResultants r;
   HourglassStiffness K;
   ColumnStress column;
   column_stress<law>(c, layout, pass.dt, state, d, t, r, column);
-  Vec8& work = column.work.internal;
+  Vec& work = column.work.internal;
   shell_shear(c, state + 8 * layout.shear(), d, t, r, work);
-  Vec8 hourglass_work =
+  Vec hourglass_work =
       shell_hourglass(c, half, state + 8 * layout.hourglass(), d, t, pass.dt, r, K);
   if constexpr (law == PointLaw::general) {
     t = take_out_failed(layout, state, d, column.least_damage, t, r, work, hourglass_work);
@@ -59,14 +59,14 @@ GANNET_INLINE void OnePoint::block(const ShellPass& pass, std::int32_t block, Sh
   if constexpr (law == PointLaw::general) sums.eroded += column.work.eroded * half.area;
   if (c.thickness_changes) grown(t, column.growth).store(state + 8 * layout.thickness());
 
-  Vec8x3 f[4];
-  Vec8x3 m[4];
+  VecX3 f[4];
+  VecX3 m[4];
   shell_corner_forces(now, r, f, m);
   if (fibres != nullptr) give_back_spin(now, load_fibres(fibres), f, m);
   scatter_all<4>(pass, block, f, m);
 
-  const Vec8 omega2 =
-      shell_omega2(c, now, t, Vec8::load(state + 8 * layout.inverse_area()), K, fibres);
+  const Vec omega2 =
+      shell_omega2(c, now, t, Vec::load(state + 8 * layout.inverse_area()), K, fibres);
   sums.vote(pass, omega2, block);
 }
 

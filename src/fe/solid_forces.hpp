@@ -2,17 +2,17 @@
 // bound of their frequency. The equations stand in solid_element.hpp. For *.isa.cpp files only.
 #pragma once
 
-#include "base/simd_math.hpp"
+#include "base/simd_vec.hpp"
 #include "fe/solid_element.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
-GANNET_INLINE Symmetric<Vec8> load_stress(const double* p) {
-  return {Vec8::load(p),      Vec8::load(p + 8),  Vec8::load(p + 16),
-          Vec8::load(p + 24), Vec8::load(p + 32), Vec8::load(p + 40)};
+GANNET_INLINE Symmetric<Vec> load_stress(const double* p) {
+  return {Vec::load(p),      Vec::load(p + 8),  Vec::load(p + 16),
+          Vec::load(p + 24), Vec::load(p + 32), Vec::load(p + 40)};
 }
 
-GANNET_INLINE void store_stress(const Symmetric<Vec8>& s, double* p) {
+GANNET_INLINE void store_stress(const Symmetric<Vec>& s, double* p) {
   s.xx.store(p);
   s.yy.store(p + 8);
   s.zz.store(p + 16);
@@ -21,29 +21,29 @@ GANNET_INLINE void store_stress(const Symmetric<Vec8>& s, double* p) {
   s.zx.store(p + 40);
 }
 
-GANNET_INLINE Symmetric<Vec8> scaled(const Symmetric<Vec8>& s, Vec8 a) {
+GANNET_INLINE Symmetric<Vec> scaled(const Symmetric<Vec>& s, Vec a) {
   return {s.xx * a, s.yy * a, s.zz * a, s.xy * a, s.yz * a, s.zx * a};
 }
 
 /// Stress of a point from n-1 to n by the law of j2.hpp, as solid_stress(). dt: of the step [s].
 /// One function for all formulations: it is long, and called where a step costs more anyway.
 __attribute__((noinline)) inline void general_stress(const SolidConstants& c, double dt,
-                                                     double* state, const Symmetric<Vec8>& e,
-                                                     const Tensor& R, Symmetric<Vec8>& sigma,
-                                                     J2Work<Vec8>& work) {
+                                                     double* state, const Symmetric<Vec>& e,
+                                                     const Tensor& R, Symmetric<Vec>& sigma,
+                                                     J2Work<Vec>& work) {
   const J2History& h = c.history;
   double* history = state + 48;
-  const auto optional = [&](int k) { return k < 0 ? Vec8(0.0) : Vec8::load(history + 8 * k); };
-  J2State<Vec8> point{Vec8::load(history), optional(h.temperature), optional(h.damage)};
-  Symmetric<Vec8> alpha{};
+  const auto optional = [&](int k) { return k < 0 ? Vec(0.0) : Vec::load(history + 8 * k); };
+  J2State<Vec> point{Vec::load(history), optional(h.temperature), optional(h.damage)};
+  Symmetric<Vec> alpha{};
   if (h.back_stress >= 0) alpha = rotated(R, load_stress(history + 8 * h.back_stress));
-  const Symmetric<Vec8> old = load_stress(state);
-  const Symmetric<Vec8> half = scaled(e, Vec8(0.5));
-  Symmetric<Vec8> turned = old;
+  const Symmetric<Vec> old = load_stress(state);
+  const Symmetric<Vec> half = scaled(e, Vec(0.5));
+  Symmetric<Vec> turned = old;
   add_elastic(c.law, half, turned);
   turned = rotated(R, turned);
-  add_elastic(c.law, scaled(half, Vec8(-1.0)), turned);
-  work = j2_step(c.j2, old, turned, e, Vec8(dt > 0 ? 1 / dt : 0.0), alpha, point, sigma);
+  add_elastic(c.law, scaled(half, Vec(-1.0)), turned);
+  work = j2_step(c.j2, old, turned, e, Vec(dt > 0 ? 1 / dt : 0.0), alpha, point, sigma);
   store_stress(sigma, state);
   point.eps_p.store(history);
   if (h.back_stress >= 0) store_stress(alpha, history + 8 * h.back_stress);
@@ -56,30 +56,30 @@ __attribute__((noinline)) inline void general_stress(const SolidConstants& c, do
 /// returned to the yield surface. state: its six stresses, and its history behind them. Gives the
 /// work per volume, (sigma(n-1) + sigma(n))/2 : e [J/m^3].
 template <PointLaw law>
-GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double dt, double* state,
-                                           const Symmetric<Vec8>& e, const Tensor& R,
-                                           J2Work<Vec8>& work) {
+GANNET_INLINE Symmetric<Vec> solid_stress(const SolidConstants& c, double dt, double* state,
+                                          const Symmetric<Vec>& e, const Tensor& R,
+                                          J2Work<Vec>& work) {
   if constexpr (law == PointLaw::general) {
-    Symmetric<Vec8> sigma;
+    Symmetric<Vec> sigma;
     general_stress(c, dt, state, e, R, sigma, work);
     return sigma;
   }
-  const Symmetric<Vec8> old = load_stress(state);
-  const Symmetric<Vec8> half = scaled(e, Vec8(0.5));
-  Symmetric<Vec8> sigma = old;
+  const Symmetric<Vec> old = load_stress(state);
+  const Symmetric<Vec> half = scaled(e, Vec(0.5));
+  Symmetric<Vec> sigma = old;
   add_elastic(c.law, half, sigma);
   sigma = rotated(R, sigma);
   add_elastic(c.law, half, sigma);
   if constexpr (law == PointLaw::linear_hardening) {
     double* strain = state + 48;
-    const Vec8 eps_p = Vec8::load(strain);
-    const Vec8 Y = Vec8(c.law.yield) + Vec8(c.law.hardening) * eps_p;
-    const Vec8 flow = return_to_yield(c.law, Y, sigma);
-    work.plastic = flow * (Y + Vec8(0.5 * c.law.hardening) * flow);
+    const Vec eps_p = Vec::load(strain);
+    const Vec Y = Vec(c.law.yield) + Vec(c.law.hardening) * eps_p;
+    const Vec flow = return_to_yield(c.law, Y, sigma);
+    work.plastic = flow * (Y + Vec(0.5 * c.law.hardening) * flow);
     (eps_p + flow).store(strain);
   }
   store_stress(sigma, state);
-  work.internal = Vec8(0.5) * (contraction(old, e) + contraction(sigma, e));
+  work.internal = Vec(0.5) * (contraction(old, e) + contraction(sigma, e));
   return sigma;
 }
 
@@ -87,14 +87,14 @@ GANNET_INLINE Symmetric<Vec8> solid_stress(const SolidConstants& c, double dt, d
 /// factor: beta/dt [-]; kept: that of the step before, which this replaces; e: strain that the
 /// stress follows from; along: strain that it does work on. work: by trapezoids [J/m^3]. Not
 /// inlined: parts without damping do not carry it along.
-__attribute__((noinline)) inline void damping_stress(const SolidConstants& c, const Vec8& factor,
-                                                     double* kept, const Symmetric<Vec8>& e,
-                                                     const Symmetric<Vec8>& along,
-                                                     Symmetric<Vec8>& sigma, Vec8& work) {
-  Symmetric<Vec8> d{};
+__attribute__((noinline)) inline void damping_stress(const SolidConstants& c, const Vec& factor,
+                                                     double* kept, const Symmetric<Vec>& e,
+                                                     const Symmetric<Vec>& along,
+                                                     Symmetric<Vec>& sigma, Vec& work) {
+  Symmetric<Vec> d{};
   add_elastic(c.law, e, d);
   d = scaled(d, factor);
-  work = Vec8(0.5) * (contraction(load_stress(kept), along) + contraction(d, along));
+  work = Vec(0.5) * (contraction(load_stress(kept), along) + contraction(d, along));
   store_stress(d, kept);
   sigma = {sigma.xx + d.xx, sigma.yy + d.yy, sigma.zz + d.zz,
            sigma.xy + d.xy, sigma.yz + d.yz, sigma.zx + d.zx};
@@ -104,48 +104,47 @@ __attribute__((noinline)) inline void damping_stress(const SolidConstants& c, co
 /// leaves or stops the run, so J, its determinant, is kept above 0. Not inlined, as
 /// general_stress().
 __attribute__((noinline)) inline void rubber_stress(const SolidConstants& c, const Tensor& F,
-                                                    HyperelasticStress<Vec8>& out, Vec8& J) {
-  J = max(dot(F.row[0], cross(F.row[1], F.row[2])), Vec8(1e-3));
-  const Symmetric<Vec8> b{dot(F.row[0], F.row[0]), dot(F.row[1], F.row[1]),
-                          dot(F.row[2], F.row[2]), dot(F.row[0], F.row[1]),
-                          dot(F.row[1], F.row[2]), dot(F.row[2], F.row[0])};
+                                                    HyperelasticStress<Vec>& out, Vec& J) {
+  J = max(dot(F.row[0], cross(F.row[1], F.row[2])), Vec(1e-3));
+  const Symmetric<Vec> b{dot(F.row[0], F.row[0]), dot(F.row[1], F.row[1]), dot(F.row[2], F.row[2]),
+                         dot(F.row[0], F.row[1]), dot(F.row[1], F.row[2]), dot(F.row[2], F.row[0])};
   out = isochoric(c.rubber, b, J);
 }
 
 /// First Piola-Kirchhoff stress, sigma cof(F): forces per area at the start.
-GANNET_INLINE Tensor piola(const Symmetric<Vec8>& s, const Tensor& F) {
-  const Vec8x3 c0 = cross(F.row[1], F.row[2]);
-  const Vec8x3 c1 = cross(F.row[2], F.row[0]);
-  const Vec8x3 c2 = cross(F.row[0], F.row[1]);
-  const auto row = [&](Vec8 a, Vec8 b, Vec8 d) {
+GANNET_INLINE Tensor piola(const Symmetric<Vec>& s, const Tensor& F) {
+  const VecX3 c0 = cross(F.row[1], F.row[2]);
+  const VecX3 c1 = cross(F.row[2], F.row[0]);
+  const VecX3 c2 = cross(F.row[0], F.row[1]);
+  const auto row = [&](Vec a, Vec b, Vec d) {
     return scaled(c0, a) + scaled(c1, b) + scaled(c2, d);
   };
   return {{row(s.xx, s.xy, s.zx), row(s.xy, s.yy, s.yz), row(s.zx, s.yz, s.zz)}};
 }
 
-/// The shape at the start, as stored.
+/// The shape at the start. Kept are the coefficients themselves.
 GANNET_INLINE SolidModes load_start(const SolidLayout& layout, const double* state) {
   SolidModes X;
   const double* p = state + 8 * layout.start();
   const auto next = [&p] {
-    const Vec8x3 a{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
+    const VecX3 a{Vec::load(p), Vec::load(p + 8), Vec::load(p + 16)};
     p += 24;
-    return a;
+    return scaled(a, Vec(8.0));
   };
-  for (Vec8x3& a : X.a) a = next();
-  for (Vec8x3& g : X.g) g = next();
+  for (VecX3& a : X.a) a = next();
+  for (VecX3& g : X.g) g = next();
   return X;
 }
 
 /// Moduli that bound the frequencies of an element now [Pa].
 struct Moduli {
-  Vec8 bulk;
-  Vec8 shear;
+  Vec bulk;
+  Vec shear;
 };
 
 /// Shear modulus of a point of rubber with what its tension adds, as that of a string does.
-GANNET_INLINE Vec8 taut_shear(const HyperelasticStress<Vec8>& stress, Vec8 mean) {
-  return stress.shear + Vec8(0.5) * max(largest_principal_bound(stress.deviator) + mean, Vec8(0.0));
+GANNET_INLINE Vec taut_shear(const HyperelasticStress<Vec>& stress, Vec mean) {
+  return stress.shear + Vec(0.5) * max(largest_principal_bound(stress.deviator) + mean, Vec(0.0));
 }
 
 /// One point of rubber over the whole element: its forces are the gradient of its energy by the
@@ -154,7 +153,7 @@ struct RubberPoint {
   SolidGeometry start;
   Tensor P;  ///< of n [Pa]
   Moduli now;
-  Vec8 work;  ///< (P(n-1) + P(n))/2 : dF V0 [J]
+  Vec work;  ///< (P(n-1) + P(n))/2 : dF V0 [J]
 };
 
 GANNET_INLINE RubberPoint rubber_point(const SolidConstants& c, const SolidLayout& layout,
@@ -162,93 +161,105 @@ GANNET_INLINE RubberPoint rubber_point(const SolidConstants& c, const SolidLayou
                                        double* state) {
   RubberPoint r;
   r.start = solid_geometry(load_start(layout, state));
-  const Vec8 inverse_V0 = reciprocal(r.start.volume);
+  const Vec inverse_V0 = reciprocal(r.start.volume_192);
   const Tensor F = mean_gradient(r.start, x, inverse_V0);
-  const Tensor dF = mean_gradient(r.start, v, inverse_V0 * Vec8(dt));
+  const Tensor dF = mean_gradient(r.start, v, inverse_V0 * Vec(dt));
   Tensor before;
   for (int i = 0; i < 3; ++i) before.row[i] = F.row[i] - dF.row[i];
   const Tensor P_old = piola(load_stress(state), before);
-  HyperelasticStress<Vec8> stress;
-  Vec8 J;
+  HyperelasticStress<Vec> stress;
+  Vec J;
   rubber_stress(c, F, stress, J);
-  const Vec8 p = volume_stress(c.rubber, J);
-  Symmetric<Vec8> sigma = stress.deviator;
+  const Vec p = volume_stress(c.rubber, J);
+  Symmetric<Vec> sigma = stress.deviator;
   sigma.xx += p;
   sigma.yy += p;
   sigma.zz += p;
   store_stress(sigma, state);
   r.P = piola(sigma, F);
-  r.work = Vec8(0.0);
+  r.work = Vec(0.0);
   for (int i = 0; i < 3; ++i) r.work += dot(P_old.row[i] + r.P.row[i], dF.row[i]);
-  r.work = Vec8(0.5) * r.work * r.start.volume;
+  r.work = Vec(0.5) * r.work * r.start.volume();
   r.now = {volume_modulus(c.rubber, J), taut_shear(stress, p)};
   return r;
 }
 
 /// Adds -P D_mode of the start.
 GANNET_INLINE void add_forces(const RubberPoint& r, SolidModes& F) {
-  for (int k = 0; k < 3; ++k) F.a[k] = F.a[k] - times(r.P, r.start.a[k]);
-  for (int k = 0; k < 3; ++k) F.g[k] = F.g[k] - times(r.P, r.start.g[k]);
+  Tensor P = r.P;
+  for (VecX3& row : P.row) row = scaled(row, Vec(1.0 / 192.0));
+  for (int k = 0; k < 3; ++k) F.a[k] = F.a[k] - times(P, r.start.a[k]);
+  for (int k = 0; k < 3; ++k) F.g[k] = F.g[k] - times(P, r.start.g[k]);
 }
 
 /// What the bulk viscosity adds [Pa], and to the damping of the highest mode.
 struct BulkViscosity {
-  Vec8 q;
-  Vec8 zeta;
+  Vec q;
+  Vec zeta;
 };
 
 /// Bulk viscosity of elements that shrink at the rate d = tr D < 0 (von Neumann & Richtmyer 1950;
 /// Landshoff 1955), l the shortest distance across the element:
 ///   q = rho l |d| (C1 l |d| + C2 c),   zeta = C2 + C1 l |d|/c
-GANNET_INLINE BulkViscosity bulk_viscosity(const SolidConstants& c, Vec8 trace_e, double dt,
-                                           Vec8 length, Vec8 rho) {
-  const Vec8 rate = max(-trace_e, Vec8(0.0)) * Vec8(dt > 0 ? 1 / dt : 0.0);
-  const Vec8 speed = Vec8(c.quadratic_viscosity) * length * rate;
-  const Vec8 linear(c.linear_viscosity / c.inverse_wave_speed);
-  const Vec8 zeta = Vec8(c.linear_viscosity) + speed * Vec8(c.inverse_wave_speed);
+GANNET_INLINE BulkViscosity bulk_viscosity(const SolidConstants& c, Vec trace_e, double dt,
+                                           Vec length, Vec rho) {
+  const Vec rate = max(-trace_e, Vec(0.0)) * Vec(dt > 0 ? 1 / dt : 0.0);
+  const Vec speed = Vec(c.quadratic_viscosity) * length * rate;
+  const Vec linear(c.linear_viscosity / c.inverse_wave_speed);
+  const Vec zeta = Vec(c.linear_viscosity) + speed * Vec(c.inverse_wave_speed);
   return {rho * length * rate * (speed + linear), zeta};
 }
 
-/// Resists the hourglass patterns by stiffness: Q to n in `state`, returned in Q, through keep(),
-/// which is 0 for elements that leave. Returns the work [J].
+/// Resists the hourglass patterns by stiffness: Q to n in `state`, an eighth of it returned in F,
+/// through keep(), which is 0 for elements that leave. q: eight times the change of the patterns.
+/// Returns the work [J].
 template <class Keep>
-GANNET_INLINE Vec8 hourglass_stiffness(double* state, const Vec8x3 q[4], const Tensor& R, Vec8 k_h,
-                                       Keep keep, Vec8x3 Q[4]) {
-  Vec8 twice_work(0.0);
-  for (int k = 0; k < 4; ++k) {
-    double* p = state + 24 * k;
-    const Vec8x3 old{Vec8::load(p), Vec8::load(p + 8), Vec8::load(p + 16)};
-    Q[k] = times(R, old) + scaled(q[k], k_h);
-    Q[k] = {keep(Q[k].x), keep(Q[k].y), keep(Q[k].z)};
-    Q[k].x.store(p);
-    Q[k].y.store(p + 8);
-    Q[k].z.store(p + 16);
-    twice_work += dot(old, q[k]) + dot(Q[k], q[k]);
+GANNET_INLINE Vec hourglass_stiffness(double* state, const VecX3 q[4], const Tensor& R, Vec k_h,
+                                      Keep keep, VecX3 F[4]) {
+  const Vec eighth(0.125);
+  const Vec k = eighth * k_h;
+  Vec sum(0.0);
+  for (int i = 0; i < 4; ++i) {
+    double* p = state + 24 * i;
+    const VecX3 old{Vec::load(p), Vec::load(p + 8), Vec::load(p + 16)};
+    VecX3 Q = times(R, old) + scaled(q[i], k);
+    Q = {keep(Q.x), keep(Q.y), keep(Q.z)};
+    Q.x.store(p);
+    Q.y.store(p + 8);
+    Q.z.store(p + 16);
+    sum += dot(old + Q, q[i]);
+    F[i] = scaled(Q, eighth);
   }
-  return Vec8(0.5) * twice_work;
+  return Vec(0.0625) * sum;
 }
 
 /// Resists them by viscosity: the force that the stiffness k_h would build up while a wave crosses
 /// `length`, Q = k_h (l/c) q/dt. Nothing is remembered, so the work is Q . q of the step that led
-/// here: more than the trapezoid by a term of second order in the change of q. Returns it [J].
-GANNET_INLINE Vec8 hourglass_viscosity(const SolidConstants& c, const Vec8x3 q[4], Vec8 k_h,
-                                       double dt, Vec8 length, Vec8x3 Q[4]) {
-  const Vec8 viscous = k_h * length * Vec8(dt > 0 ? c.inverse_wave_speed / dt : 0.0);
-  Vec8 work(0.0);
+/// here: more than the trapezoid by a term of second order in the change of q. q, F: as above.
+/// Returns the work [J].
+GANNET_INLINE Vec hourglass_viscosity(const SolidConstants& c, const VecX3 q[4], Vec k_h, double dt,
+                                      Vec length, VecX3 F[4]) {
+  const Vec viscous = k_h * length * Vec(dt > 0 ? c.inverse_wave_speed / (64 * dt) : 0.0);
+  Vec work(0.0);
   for (int k = 0; k < 4; ++k) {
-    Q[k] = scaled(q[k], viscous);
-    work += dot(Q[k], q[k]);
+    F[k] = scaled(q[k], viscous);
+    work += dot(F[k], q[k]);
   }
   return work;
 }
 
-/// Forces on the coefficients: -(sigma - sum Q_k g_k^T / V) D_mode, and -Q_k on each hourglass one.
+/// Forces, an eighth of those on the coefficients: of -(sigma - sum Q_k g_k^T / V) D_mode, and -Q_k
+/// on each hourglass one. Q: an eighth of Q_k.
 GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& x,
-                                      const Symmetric<Vec8>& s, const Vec8x3 Q[4],
-                                      Vec8 inverse_volume) {
-  Tensor T{{{-s.xx, -s.xy, -s.zx}, {-s.xy, -s.yy, -s.yz}, {-s.zx, -s.yz, -s.zz}}};
+                                      const Symmetric<Vec>& s, const VecX3 Q[4],
+                                      Vec inverse_volume_192) {
+  const Vec scale(-1.0 / 192.0);
+  const Vec xy = scale * s.xy;
+  const Vec yz = scale * s.yz;
+  const Vec zx = scale * s.zx;
+  Tensor T{{{scale * s.xx, xy, zx}, {xy, scale * s.yy, yz}, {zx, yz, scale * s.zz}}};
   for (int k = 0; k < 4; ++k) {
-    const Vec8x3 g = scaled(x.g[k], inverse_volume);
+    const VecX3 g = scaled(x.g[k], inverse_volume_192);
     T.row[0] = T.row[0] + scaled(g, Q[k].x);
     T.row[1] = T.row[1] + scaled(g, Q[k].y);
     T.row[2] = T.row[2] + scaled(g, Q[k].z);
@@ -266,16 +277,15 @@ GANNET_INLINE SolidModes solid_forces(const SolidGeometry& G, const SolidModes& 
 ///   omega^2 <= n/(M V) (lambda tr G + 2 mu largest(G)) + k_h/M (1 + n largest(G) sum |g|^2/V^2),
 /// exact for a cube (3 K) and for a flat element (lambda + 2 mu). Where lambda is below 0 a motion
 /// without dilatation is the stiffest: it counts as 0.
-GANNET_INLINE Vec8 solid_omega2(SolidShape shape, Vec8 lambda, Vec8 two_mu, const GramBound& gram,
-                                const SolidModes& x, Vec8 inverse_volume, Vec8 inverse_mass,
-                                Vec8 k_h) {
-  Vec8 g2(0.0);
-  for (const Vec8x3& g : x.g) g2 += dot(g, g);
-  const Vec8 n(shape == SolidShape::tetrahedron ? 4.0 : 8.0);
-  const Vec8 hourglass =
-      k_h * (Vec8(1.0) + n * gram.largest * g2 * inverse_volume * inverse_volume);
+GANNET_INLINE Vec solid_omega2(SolidShape shape, Vec lambda, Vec two_mu, const GramBound& gram,
+                               const SolidModes& x, Vec inverse_volume, Vec inverse_mass, Vec k_h) {
+  Vec g2(0.0);
+  for (const VecX3& g : x.g) g2 += dot(g, g);
+  g2 = Vec(1.0 / 64.0) * g2;
+  const Vec n(shape == SolidShape::tetrahedron ? 4.0 : 8.0);
+  const Vec hourglass = k_h * (Vec(1.0) + n * gram.largest * g2 * inverse_volume * inverse_volume);
   return inverse_mass *
-         (n * inverse_volume * (max(lambda, Vec8(0.0)) * gram.trace + two_mu * gram.largest) +
+         (n * inverse_volume * (max(lambda, Vec(0.0)) * gram.trace + two_mu * gram.largest) +
           hourglass);
 }
 

@@ -105,10 +105,14 @@ struct SolidSums {
 namespace avx2 {
 void solid_volumes(const SolidPass& pass, std::int32_t begin, std::int32_t end);
 void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
+void solid_eight_points(const SolidPass& pass, std::int32_t begin, std::int32_t end,
+                        SolidSums& sums);  ///< solid_force() of eight points
 }  // namespace avx2
 namespace avx512 {
 void solid_volumes(const SolidPass& pass, std::int32_t begin, std::int32_t end);
 void solid_force(const SolidPass& pass, std::int32_t begin, std::int32_t end, SolidSums& sums);
+void solid_eight_points(const SolidPass& pass, std::int32_t begin, std::int32_t end,
+                        SolidSums& sums);  ///< solid_force() of eight points
 }  // namespace avx512
 
 }  // namespace gannet

@@ -1,7 +1,7 @@
 #include "fe/truss_kernel.hpp"
 
 #include "fe/lane_extremes.hpp"
-#include "fe/vec8x3.hpp"
+#include "fe/vec_x3.hpp"
 
 namespace gannet::GANNET_ISA_NS {
 
@@ -58,7 +58,8 @@ GANNET_INLINE void truss_block(const TrussPass& pass, const Constants& k, std::i
   const auto value = [state](TrussValue which) { return Vec8::load(state + 8 * which); };
   const auto put = [state](TrussValue which, Vec8 a) { a.store(state + 8 * which); };
   const Vec8 zero(0.0);
-  const Vec8x3 r = gather_corner(pass.x, corners, 1) - gather_corner(pass.x, corners, 0);
+  const Vec8x3 r =
+      gather_corner<Vec8>(pass.x, corners, 1) - gather_corner<Vec8>(pass.x, corners, 0);
   const Vec8 r2 = dot(r, r);
   // The smallest number keeps 1/l finite where both ends are at one place.
   const Vec8 inverse_l = rsqrt(r2 + Vec8(1e-300));
@@ -135,7 +136,7 @@ GANNET_INLINE void run(const TrussPass& pass, std::int32_t begin, std::int32_t e
   sums.broken = sum(lanes.broken);
   sums.rate = 0;
   sums.element = -1;
-  take_largest(lanes.rate, lanes.block, sums.rate, sums.element);
+  take_largest(lanes.rate, lanes.block, 0, sums.rate, sums.element);
   if constexpr (!damped) sums.rate = __builtin_sqrt(sums.rate);
 }
 
