@@ -1,5 +1,7 @@
 #include "fe/mooring_types.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <vector>
 
@@ -8,12 +10,13 @@ namespace gannet {
 namespace {
 
 constexpr std::array<MooringType, 6> types{{
-    {"chain", 20.0e3, 85.6e9, -3.93e7, 1.80, 9.11e2, 1.21e9, -2.19e9, 1.333, 0.639, 1.0, 0.5},
-    {"studlink_chain", 21.9e3, 88.0e9, 0, 1.89, 9.11e2, 1.21e9, -2.19e9, 1.376, 0.741, 1.0, 0.5},
-    {"wire", 5293, 97.1e9, 0, 1.18, 0, 1022e6, 0, 1.021, 0, 1.0, 0},
-    {"polyester", 679, 14 * 308e6, 0, 0.7915, 0, 308e6, 0, 2.021, 0, 1.1, 0.15},
-    {"nylon", 585, 5 * 207e6, 5 * 230e6, 0.8083, 0, 207e6, 230e6, 1.979, 0, 1.1, 0.15},
-    {"hmpe", 496, 56 * 580e6, 56 * 651e6, 0.8048, 0, 580e6, 651e6, 1.988, 0, 1.1, 0.15},
+    {"chain", 0.25, 20.0e3, 85.6e9, -3.93e7, 1.80, 9.11e2, 1.21e9, -2.19e9, 1.333, 0.639, 1.0, 0.5},
+    {"studlink_chain", 0.25, 21.9e3, 88.0e9, 0, 1.89, 9.11e2, 1.21e9, -2.19e9, 1.376, 0.741, 1.0,
+     0.5},
+    {"wire", 0.25, 5293, 97.1e9, 0, 1.18, 0, 1022e6, 0, 1.021, 0, 1.0, 0},
+    {"polyester", 0.4, 679, 14 * 308e6, 0, 0.7915, 0, 308e6, 0, 2.021, 0, 1.1, 0.15},
+    {"nylon", 0.4, 585, 5 * 207e6, 5 * 230e6, 0.8083, 0, 207e6, 230e6, 1.979, 0, 1.1, 0.15},
+    {"hmpe", 0.4, 496, 56 * 580e6, 56 * 651e6, 0.8048, 0, 580e6, 651e6, 1.988, 0, 1.1, 0.15},
 }};
 
 void fill_open(const Keys& keys, const char* name, double value, double& coefficient) {
@@ -70,6 +73,11 @@ bool read_mooring_type(const Keys& keys, MooringLine& line) {
     return false;
   }
   const double d = keys.number("nominal");
+  if (d > type->largest) {
+    keys.complain("nominal", fmt::format("{:g} m is more than is made of {}: up to {:g} mm", d,
+                                         type->name, 1e3 * type->largest));
+    return false;
+  }
   line.block.mu = type->mass * d * d;
   line.block.EA = d * d * (type->EA_2 + d * type->EA_3);
   line.diameter = type->displaces * d;

@@ -21,7 +21,8 @@ namespace gannet {
 /// stiffer.
 struct MooringType {
   const char* name;
-  double mass;  ///< [kg/m^3]
+  double largest;  ///< size that is made, and that the figures are for [m]
+  double mass;     ///< [kg/m^3]
   double EA_2, EA_3;
   double displaces;
   double breaks_1, breaks_2, breaks_3;
