@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/part_contact.hpp"
+#include "plan/vote_of_part.hpp"
 #include "scene/bonds.hpp"
 #include "scene/part_nodes.hpp"
 #include "sph/wall_state.hpp"
@@ -69,12 +70,9 @@ Units units_of(Scene& scene) {
 
 /// The part whose vote an operation casts; -1: that of no single part.
 int part_of_vote(const Scene& scene, const Operation& op) {
-  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
-    const std::string& name = scene.parts[p].name;
-    const bool owned = std::ranges::find(op.owns, name + ".state") != op.owns.end();
-    if (owned || op.name.starts_with(name + ":")) return static_cast<int>(p);
-  }
-  return -1;
+  const auto found = std::ranges::find_if(
+      scene.parts, [&](const Part& part) { return casts_vote_of(op, part.name); });
+  return found == scene.parts.end() ? -1 : static_cast<int>(found - scene.parts.begin());
 }
 
 int first_particles(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/effects.hpp"
+#include "contact/tie_buffer.hpp"
 #include "contact/tie_rows.hpp"
 #include "plan/model_of_part.hpp"
 #include "scene/node_set.hpp"
@@ -236,6 +237,34 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   for (const PartTie& tie : all.list) start_tied(tie, scene.nodes, followers);
 }
 
+/// Says once at the start which ties across models stand where the waves of a fine mesh are.
+void warn_of_buffers(Scene& scene, Models& models, const PartTies& all) {
+  std::string list;
+  for (const PartTie& tie : all.list) {
+    const std::string missing = missing_buffer(scene, models, tie);
+    if (!missing.empty()) list += (list.empty() ? "" : "; ") + missing;
+  }
+  if (list.empty()) return;
+  scene.warnings.push_back(fmt::format(
+      "ties: {}: energy may grow at that border. Make two or three rows of the slow part's "
+      "elements "
+      "a part of their own that advances in the fast model, tie it to the rest by its own nodes, "
+      "and tie the fine mesh to it",
+      list));
+}
+
+void look_at_buffers(Scene& scene, Models& models, const PartTies& all) {
+  if (all.links.empty() || all.list.empty()) return;  // links are for ties to bodies too
+  models.list.back().plan.add({.name = "buffers of ties across models",
+                               .reason = asked_for_at(all.list.front().where),
+                               .stage = Stage::look,
+                               .run = [&](const Step& step) {
+                                 if (step.coincides && models.list.front().step.n == 0) {
+                                   warn_of_buffers(scene, models, all);
+                                 }
+                               }});
+}
+
 /// When all forces are known, and nodes have the motion that boundaries give them.
 void last_operations(const Keys&, Scene& scene, Models& models) {
   if (!scene.store.has<PartTies>()) return;
@@ -244,6 +273,7 @@ void last_operations(const Keys&, Scene& scene, Models& models) {
   for (PartTie& tie : all.list) {
     add_tie_operations(scene, models.of_node(tie.rows.front().node), models.ledger, tie);
   }
+  look_at_buffers(scene, models, all);
 }
 
 /// How far nodes were moved onto what they are tied to.

@@ -172,3 +172,23 @@ TEST_CASE("subcycling: 100,000 coarse steps at ratios of 1 to 1,000", "[.][physi
     for (const double mass : {10., 45000.}) check_body(mass, ratio, 100000);
   }
 }
+
+TEST_CASE("subcycling: a tie across models without a buffer is warned of", "[physics]") {
+  const auto warnings_of = [](const Chain& c) {
+    const auto s = make_simulation_of_text(text_of(c));
+    advance(s->models);
+    std::string all;
+    for (const std::string& warning : s->scene.warnings) all += warning + "\n";
+    return all;
+  };
+  for (const bool stiff : {false, true}) {
+    const std::string none = warnings_of({.stiff = stiff, .ratio = 4, .buffer = 0});
+    CHECK_THAT(none, Catch::Contains("'join' ties 'fine' of 'fast' to 'coarse' of the slower "
+                                     "'slow' with no layer"));
+    const std::string one = warnings_of({.stiff = stiff, .ratio = 4, .buffer = 1});
+    CHECK_THAT(one, Catch::Contains("'seam' ties 'buffer' of 'fast' to 'coarse' of the slower "
+                                    "'slow' with one layer"));
+    const std::string two = warnings_of({.stiff = stiff, .ratio = 4, .buffer = 2});
+    CHECK_THAT(two, !Catch::Contains("ties: "));
+  }
+}
