@@ -15,6 +15,48 @@ constexpr Index row_chunk = 128;
 /// Below this share of the contact distance, x - x_cp says nothing about direction.
 constexpr double on_surface = 1e-9;
 
+/// A place of a point, and the segment that is nearest to it there.
+struct NearestImage {
+  Vec3 x = Vec3::Zero();
+  Nearest nearest;
+};
+
+/// The nearest segment over the images of a point, which stand together among the candidates; of
+/// those that are as near the first.
+NearestImage nearest_image(const Surface& surface, const SegmentCandidates& candidates, Index row,
+                           const Vec3& x, double near, const PointImages& images) {
+  const Index end = candidates.begin[row + 1];
+  const auto point = static_cast<std::size_t>(candidates.point[row]);
+  const Vec3 unwrapped = image_near(images.periods, x, xyz(images.x_search[point]) + images.moved);
+  NearestImage found{.x = x, .nearest = {}};
+  Index from = candidates.begin[row];
+  while (from < end) {
+    const Eigen::Vector3i k = candidates.image[from];
+    Index to = from + 1;
+    while (to < end && candidates.image[to] == k) ++to;
+    const Vec3 there = image_of(images.periods, unwrapped, k);
+    const Nearest nearest = nearest_segment(
+        surface, {&candidates.segment[from], static_cast<std::size_t>(to - from)}, there, near);
+    if (nearest.segment >= 0) {
+      found = {there, nearest};
+      near = std::sqrt(nearest.closest.distance2);
+    }
+    from = to;
+  }
+  return found;
+}
+
+NearestImage nearest_of_row(const Surface& surface, const SegmentCandidates& candidates, Index row,
+                            const Vec3& x, double near, const PointImages& images) {
+  if (!candidates.image.empty()) {
+    return nearest_image(surface, candidates, row, x, near, images);
+  }
+  const Index from = candidates.begin[row];
+  const std::span<const Index> of_row(&candidates.segment[from],
+                                      static_cast<std::size_t>(candidates.begin[row + 1] - from));
+  return {x, nearest_segment(surface, of_row, x, near)};
+}
+
 }  // namespace
 
 Nearest nearest_segment(const Surface& surface, std::span<const Index> candidates, const Vec3& x,
@@ -64,17 +106,13 @@ Gap gap_of(const Surface& surface, const Nearest& nearest, const Vec3& x, const 
 
 Overlaps find_gaps(const Surface& surface, const SegmentCandidates& candidates,
                    std::span<const Line> x, const GapRange& range, bool first,
-                   const GapMemory& memory, std::span<Gap> gaps) {
+                   const GapMemory& memory, std::span<Gap> gaps, const PointImages& images) {
   const auto rows = [&](Index begin, Index end) {
     Overlaps found;
     for (Index r = begin; r < end; ++r) {
       const auto i = static_cast<std::size_t>(candidates.point[r]);
-      const Index from = candidates.begin[r];
-      const std::span<const Index> of_row(&candidates.segment[from],
-                                          static_cast<std::size_t>(candidates.begin[r + 1] - from));
-      const Vec3 p = xyz(x[i]);
-      Gap gap = gap_of(surface, nearest_segment(surface, of_row, p, range.near), p, range,
-                       memory.side[i]);
+      const NearestImage at = nearest_of_row(surface, candidates, r, xyz(x[i]), range.near, images);
+      Gap gap = gap_of(surface, at.nearest, at.x, range, memory.side[i]);
       const double inside = std::max(0.0, gap.penetration);
       if (first && inside > 1e-9 * range.contact) {
         memory.offset[i] = inside;

@@ -60,11 +60,21 @@ Nearest nearest_segment(const Surface& surface, std::span<const Index> candidate
 Gap gap_of(const Surface& surface, const Nearest& nearest, const Vec3& x, const GapRange& range,
            std::int32_t& side);
 
+/// Where the points that a list of candidates was made from stood, of points that repeat.
+struct PointImages {
+  Periods periods{};
+  std::span<const Line> x_search{};  ///< of each point, when the list was made [m]
+  Vec3 moved = Vec3::Zero();         ///< mean_displacement() of the surface since then [m]
+};
+
 /// Gaps of all rows of `candidates`: gaps[r] is that of point candidates.point[r].
 /// x: positions of all points [m]. With `first`, penetrations become offsets, and are counted;
 /// later penetration = max(0, d - g) - offset, where offset <- min(offset, max(0, d - g)).
+/// Of a point that repeats, the image counts that is nearest to the surface: a point is wrapped to
+/// the other side of its domain at any time, and its candidates are those of where it would be
+/// without, the image nearest to x_search + moved.
 Overlaps find_gaps(const Surface& surface, const SegmentCandidates& candidates,
                    std::span<const Line> x, const GapRange& range, bool first,
-                   const GapMemory& memory, std::span<Gap> gaps);
+                   const GapMemory& memory, std::span<Gap> gaps, const PointImages& images = {});
 
 }  // namespace gannet

@@ -43,8 +43,13 @@ void size_rows(NodeToSegment& c) {
 
 /// The list from the positions in x_search and node_x_search.
 void make_list(const Scene& scene, NodeToSegment& c) {
-  const SegmentSearch what{owned(scene, c.x_search), scene.particle_part, c.particle_part,
-                           c.node_x_search,          c.surface.corners,   0};
+  const SegmentSearch what{owned(scene, c.x_search),
+                           scene.particle_part,
+                           c.particle_part,
+                           c.node_x_search,
+                           c.surface.corners,
+                           0,
+                           *c.periods};
   SegmentSearch with_reach = what;
   with_reach.group = {scene.particle_part.data(), what.points.size()};
   with_reach.reach = c.range.near + c.search_numbers[0];
@@ -69,7 +74,11 @@ double skin_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
       },
       [](double a, double b) { return std::max(a, b); });
   const double d = c.range.contact;
-  return std::clamp(8 * step.dt_old * std::sqrt(v2), 0.35 * d, 3 * d);
+  double most = 3 * d;
+  for (const double L : c.periods->length) {
+    if (L > 0) most = std::min(most, 0.25 * L);  // else it is not known which image is meant
+  }
+  return std::min(std::clamp(8 * step.dt_old * std::sqrt(v2), 0.35 * d, 3 * d), most);
 }
 
 /// What particles remember when they are not near any segment: nothing.
@@ -198,6 +207,7 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.particle_part = particle_part;
   c.surface_part = surface_part;
   c.followers = &scene.store.get<Followers>();
+  c.periods = &scene.store.get<Periods>();
   c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());
@@ -216,8 +226,8 @@ bool search(Scene& scene, NodeToSegment& c, const Step& step) {
   const auto x = particle_lines(scene, scene.nodes.x);
   if (!first) {
     order_rows(c.candidates);
-    const double moved =
-        relative_displacement(x, owned(scene, c.x_search), c.surface.x, c.node_x_search);
+    const double moved = relative_displacement(x, owned(scene, c.x_search), c.surface.x,
+                                               c.node_x_search, *c.periods);
     if (moved <= c.search_numbers[0]) return false;
   }
   std::copy(x.begin(), x.end(), c.x_search.begin());
@@ -230,8 +240,10 @@ bool search(Scene& scene, NodeToSegment& c, const Step& step) {
 
 void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first) {
   const GapMemory memory{c.side, c.offset};
+  PointImages images{*c.periods, owned(scene, c.x_search)};
+  if (c.periods->any()) images.moved = mean_displacement(c.surface.x, c.node_x_search);
   const Overlaps overlaps = find_gaps(c.surface, c.candidates, particle_lines(scene, scene.nodes.x),
-                                      c.range, first, memory, c.gaps);
+                                      c.range, first, memory, c.gaps, images);
   if (first) {
     c.search_numbers[1] = overlaps.count;
     c.search_numbers[2] = overlaps.largest;

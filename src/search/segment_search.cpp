@@ -132,6 +132,19 @@ void for_slabs_at(const Grid& grid, const std::vector<Slab>& slabs, const Vec3& 
   }
 }
 
+/// Calls f(segment, k) for the images x + k L of a point that are in slabs, image by image.
+template <class F>
+void for_slabs_at(const SegmentSearch& what, const Grid& grid, const std::vector<Slab>& slabs,
+                  const Vec3& x, F&& f) {
+  if (!what.periods.any()) {
+    return for_slabs_at(grid, slabs, x, [&](Index s) { f(s, Eigen::Vector3i(0, 0, 0)); });
+  }
+  if (!(grid.lo.array() <= grid.hi.array()).all()) return;
+  for_images_in(what.periods, x, grid.lo, grid.hi, [&](const Eigen::Vector3i& k) {
+    for_slabs_at(grid, slabs, image_of(what.periods, x, k), [&](Index s) { f(s, k); });
+  });
+}
+
 /// From the number of segments of every point to the rows of those that have any.
 void make_rows(const std::vector<Index>& count, SegmentCandidates& list) {
   list.point.clear();
@@ -159,16 +172,20 @@ void find_candidates(const SegmentSearch& what, SegmentCandidates& candidates) {
     for (Index i = begin; i < end; ++i) {
       const auto p = static_cast<std::size_t>(i);
       if (!what.group.empty() && what.group[p] != what.wanted_group) continue;
-      for_slabs_at(grid, slabs, xyz(what.points[p]), [&](Index) { ++count[p]; });
+      for_slabs_at(what, grid, slabs, xyz(what.points[p]),
+                   [&](Index, const Eigen::Vector3i&) { ++count[p]; });
     }
   });
   make_rows(count, candidates);
+  candidates.image.resize(what.periods.any() ? candidates.segment.size() : 0);
   parallel_for(candidates.n_rows(), point_chunk, [&](Index begin, Index end) {
     for (Index r = begin; r < end; ++r) {
       auto next = static_cast<std::size_t>(candidates.begin[r]);
       const auto p = static_cast<std::size_t>(candidates.point[r]);
-      for_slabs_at(grid, slabs, xyz(what.points[p]),
-                   [&](Index s) { candidates.segment[next++] = s; });
+      for_slabs_at(what, grid, slabs, xyz(what.points[p]), [&](Index s, const Eigen::Vector3i& k) {
+        if (!candidates.image.empty()) candidates.image[next] = k;
+        candidates.segment[next++] = s;
+      });
     }
   });
 }
@@ -186,16 +203,24 @@ void order_rows(SegmentCandidates& candidates) {
     candidates.point[r] = old.point[from];
     candidates.begin[r] = next;
     for (Index k = old.begin[from]; k < old.begin[from + 1]; ++k) {
+      if (!old.image.empty()) candidates.image[next] = old.image[k];
       candidates.segment[next++] = old.segment[k];
     }
   }
 }
 
-double relative_displacement(std::span<const Line> x, std::span<const Line> x0,
-                             std::span<const Line> y, std::span<const Line> y0) {
+Vec3 mean_displacement(std::span<const Line> y, std::span<const Line> y0) {
   Vec3 u = Vec3::Zero();
   for (std::size_t j = 0; j < y.size(); ++j) u += xyz(y[j]) - xyz(y0[j]);
   if (!y.empty()) u /= static_cast<double>(y.size());
+  return u;
+}
+
+double relative_displacement(std::span<const Line> x, std::span<const Line> x0,
+                             std::span<const Line> y, std::span<const Line> y0,
+                             const Periods& periods) {
+  const Vec3 u = mean_displacement(y, y0);
+  const bool repeats = periods.any();
   double corners = 0;
   for (std::size_t j = 0; j < y.size(); ++j) {
     corners = std::max(corners, (xyz(y[j]) - xyz(y0[j]) - u).squaredNorm());
@@ -206,7 +231,9 @@ double relative_displacement(std::span<const Line> x, std::span<const Line> x0,
         double most = 0;
         for (Index i = begin; i < end; ++i) {
           const auto p = static_cast<std::size_t>(i);
-          most = std::max(most, (xyz(x[p]) - xyz(x0[p]) - u).squaredNorm());
+          Vec3 moved = xyz(x[p]) - xyz(x0[p]) - u;
+          if (repeats) moved = image_near(periods, moved, Vec3::Zero());
+          most = std::max(most, moved.squaredNorm());
         }
         return most;
       },

@@ -80,6 +80,17 @@ void add_parts(const Keys& root, Draft& draft) {
   }
 }
 
+/// Where particles of bodies stand before any of them is wrapped into a periodic domain: what
+/// put_on_body() makes their arms from [m].
+void note_places(Walls& walls, const Scene& scene) {
+  for (Index k = 0; k < scene.particles.size(); ++k) {
+    const Wall* wall = walls.of(scene, k);
+    if (wall == nullptr || !wall->on_body) continue;
+    const auto i = static_cast<std::size_t>(scene.particles.begin + k);
+    set_xyz(walls.arm[k], xyz(scene.nodes.x[i]));
+  }
+}
+
 void state(const Keys& /*root*/, Scene& scene) {
   if (!scene.store.has<Walls>()) return;
   auto& walls = scene.store.get<Walls>();
@@ -87,6 +98,7 @@ void state(const Keys& /*root*/, Scene& scene) {
     if (!wall.on_body) continue;
     if (walls.arm.empty()) {
       walls.arm.assign(static_cast<std::size_t>(scene.particles.size()), {});
+      note_places(walls, scene);
       Field arm =
           line_field("wall arm", "m", "", Over::particles, walls.arm, 0, 3, GhostRule::none);
       arm.owner = "walls";
@@ -109,7 +121,7 @@ void put_on_body(Walls& walls, Scene& scene, Wall& wall) {
   for (Index k = 0; k < scene.particles.size(); ++k) {
     if (scene.particle_part[k] != wall.part) continue;
     const auto i = static_cast<std::size_t>(scene.particles.begin + k);
-    const Vec3 r = xyz(scene.nodes.x[i]) - centre;
+    const Vec3 r = xyz(walls.arm[k]) - centre;
     set_xyz(walls.arm[k], carrier.q.conjugate() * r);
     const Vec3 its = v + omega.cross(r);
     scene.nodes.v[i] = {its.x(), its.y(), its.z(), 0};

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "scene/draft_surface.hpp"
+#include "scene/periods.hpp"
 #include "sph/effects.hpp"
 
 namespace gannet {
@@ -19,8 +20,10 @@ Schema schema() {
                     "to it than half a spacing"}}};
 }
 
-/// Removes the points that are inside of the surface or nearer to it than `gap` [m].
-void clear_inside(const ClosedSurface& surface, double gap, std::vector<Vec3>& points) {
+/// Removes the points that are, or have an image that is, inside of the surface or nearer to it
+/// than `gap` [m].
+void clear_inside(const ClosedSurface& surface, double gap, const Periods& periods,
+                  std::vector<Vec3>& points) {
   Vec3 low = surface.points.front();
   Vec3 high = low;
   for (const Vec3& p : surface.points) {
@@ -32,9 +35,11 @@ void clear_inside(const ClosedSurface& surface, double gap, std::vector<Vec3>& p
   std::vector<std::uint8_t> inside(points.size(), 0);
   parallel_for(static_cast<Index>(points.size()), 256, [&](Index begin, Index end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const Vec3& x = points[k];
-      if (((x - low).array() < -gap).any() || ((x - high).array() > gap).any()) continue;
-      inside[k] = contains(surface, x) || distance(surface, x) < nearest ? 1 : 0;
+      for_images_in(periods, points[k], low.array() - gap, high.array() + gap, [&](const auto& n) {
+        const Vec3 x = image_of(periods, points[k], n);
+        if (((x - low).array() < -gap).any() || ((x - high).array() > gap).any()) return;
+        if (contains(surface, x) || distance(surface, x) < nearest) inside[k] = 1;
+      });
     }
   });
   std::size_t kept = 0;
@@ -52,14 +57,30 @@ double spacing_of(const Keys& root, const Keys& part) {
   return root.map("parts").map(wall.word("like")).map("sph").number_or("spacing", 0);
 }
 
+/// The periods of the domain as the case has them; whether they are sound is for sph/periodic.cpp.
+Periods periods_of(const Keys& root, int dimension) {
+  Periods periods;
+  if (!root.has("boundaries")) return periods;
+  for (const std::string& name : root.map("boundaries").names()) {
+    const Keys keys = root.map("boundaries").map(name).map("periodic");
+    for (int d = 0; d < dimension; ++d) {
+      const std::string axis(1, "xyz"[d]);
+      if (!keys.has(axis) || keys.numbers(axis).size() != 2) continue;
+      periods.length[d] = std::max(0.0, keys.numbers(axis)[1] - keys.numbers(axis)[0]);
+    }
+  }
+  return periods;
+}
+
 void parts(const Keys& root, Draft& draft) {
+  const Periods periods = periods_of(root, draft.dimension);
   for (PartDraft& part : draft.parts) {
     const Keys keys = root.map("parts").map(part.name);
     const Keys fill = keys.map("fill");
     if (part.cell != Cell::none || !fill.has("outside") || part.points.empty()) continue;
     const ClosedSurface surface = closed_surface_of(draft, fill.words("outside"), fill, "outside");
     if (surface.facets.empty()) continue;
-    clear_inside(surface, 0.5 * spacing_of(root, keys), part.points);
+    clear_inside(surface, 0.5 * spacing_of(root, keys), periods, part.points);
     if (part.points.empty()) fill.complain("outside", "leaves no particle");
   }
 }

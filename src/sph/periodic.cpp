@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/periods.hpp"
 #include "sph/effects.hpp"
 #include "sph/sph_state.hpp"
 
@@ -45,7 +46,7 @@ std::vector<Keys> asked_for(const Keys& root) {
   return found;
 }
 
-void read_direction(const Keys& periodic, std::size_t d, const Scene& scene, SphState& sph) {
+void read_direction(const Keys& periodic, std::size_t d, Scene& scene, SphState& sph) {
   const std::vector<double>& ends = periodic.numbers(axes[d]);
   const double shortest = sph.kernel.reach() + sph.skin.least;
   if (static_cast<int>(d) >= scene.dimension) {
@@ -64,6 +65,7 @@ void read_direction(const Keys& periodic, std::size_t d, const Scene& scene, Sph
     sph.skin.width = std::min(sph.skin.width, sph.skin.most);
     sph.halo.low[static_cast<Eigen::Index>(d)] = ends[0];
     sph.halo.high[static_cast<Eigen::Index>(d)] = ends[1];
+    scene.store.get<Periods>().length[static_cast<Eigen::Index>(d)] = ends[1] - ends[0];
   }
 }
 

@@ -92,6 +92,10 @@ Sample walled_bodies_sample() {
   return {[] { return std::make_unique<WatchedRun>(walled_bodies(bodies)); }, 150, false};
 }
 
+Sample border_sample() {
+  return {[] { return std::make_unique<WatchedRun>(bodies_at_border(bodies)); }, 150, false};
+}
+
 Sample moored_sample() {
   return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
 }
@@ -412,6 +416,12 @@ TEST_CASE("same bits: bodies with walls of particles, 1, 2, 3 and 5 threads, and
           "[bits]") {
   check_threads(walled_bodies_sample());
   check_restart(walled_bodies_sample());
+}
+
+TEST_CASE("same bits: a body across a periodic border, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(border_sample());
+  check_restart(border_sample());
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

@@ -244,6 +244,19 @@ inline std::string walled_bodies(std::string text) {
   return text;
 }
 
+/// The same with the box across the border of a pool that repeats.
+inline std::string bodies_at_border(std::string text) {
+  const auto put = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  put("[[0.4, 0.27, 0], [0.6, 0.3, 0], [0.6, 0.4, 0], [0.4, 0.37, 0], [0.4, 0.27, 0]]",
+      "[[0.85, 0.27, 0], [1.05, 0.3, 0], [1.05, 0.4, 0], [0.85, 0.37, 0], [0.85, 0.27, 0]]");
+  put("velocity: [0.3 m/s, -2 m/s, 0]", "velocity: [3 m/s, -2 m/s, 0]");
+  put("tank: {planes: {x: [0, 1 m], y: 0}}",
+      "tank: {planes: {y: 0}}, sea: {periodic: {x: [0, 1 m]}}");
+  return text;
+}
+
 /// A box that floats askew in a pool of 100 x 30 particles, held by two lines that are tied to it
 /// and advance with it in eight or more substeps a step of the water.
 inline const std::string moored = R"case(gannet: 1

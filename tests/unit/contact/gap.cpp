@@ -230,3 +230,28 @@ TEST_CASE("gap: force jump below 1 % when sliding over the edges of a slightly b
   CHECK(concave > 0.008);
   CHECK(largest_jump(s, half_degree, -0.3, 30000) < 0.01);
 }
+
+TEST_CASE("gap: of a point that repeats, the image that is near the surface counts", "[contact]") {
+  const Sheet sheet(flat());  // 4 m x 4 m about (2, 2, 0)
+  const Periods periods{{3, 0, 0}};
+  // Listed at x = 31.6, wrapped since to 0.6: as near the sheet at 1.6 (k = -10) as at 3.6 (-9.3).
+  const std::vector<Line> x_search{{31.6, 2, 0.5, 0}};
+  const std::vector<Line> x{{0.7, 2, 0.3, 0}};
+  SegmentCandidates list;
+  find_candidates({x_search, {}, 0, sheet.surface.x, sheet.surface.corners, 1.0, periods}, list);
+  std::int32_t side = 0;
+  double offset = 0;
+  Gap gap;
+  find_gaps(sheet.surface, list, x, sheet.range, false, {{&side, 1}, {&offset, 1}}, {&gap, 1},
+            {periods, x_search, Vec3::Zero()});
+  REQUIRE(gap.segment >= 0);
+  CHECK(gap.penetration == Approx(0.1));
+  CHECK(gap.normal.z() == Approx(1));
+  CHECK(side > 0);
+  Vec3 foot = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Segment& g = sheet.surface.segments[static_cast<std::size_t>(gap.segment)];
+    foot += gap.N[k] * xyz(sheet.surface.x[static_cast<std::size_t>(g.corner[k])]);
+  }
+  CHECK(std::remainder(foot.x() - 0.7, 3) == Approx(0).margin(1e-12));
+}

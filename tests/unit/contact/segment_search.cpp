@@ -129,3 +129,47 @@ TEST_CASE("segment search: not-a-number corners give an empty list", "[search][c
   find_candidates(c.what, list);
   CHECK(list.n_rows() == 0);
 }
+
+TEST_CASE("segment search: points that repeat are found by their images", "[search][contact]") {
+  Cloud c;
+  make_cloud(c);
+  c.what.periods.length = {7, 0, 5};  // the sheet is 11 m long: a point may have two images near
+  for (Line& p : c.points) {
+    p.x += 70 - 7 * std::floor(p.x / 7);  // all of them in one period far from the sheet
+    p.z -= 20 + 5 * std::floor(p.z / 5);
+  }
+  SegmentCandidates list;
+  find_candidates(c.what, list);
+  REQUIRE(list.image.size() == list.segment.size());
+  std::size_t within = 0;
+  for (Index i = 0; i < 3000; ++i) {
+    const auto row = std::lower_bound(list.point.begin(), list.point.end(), i) - list.point.begin();
+    for (int kx = -12; kx <= -8; ++kx) {
+      for (int kz = 2; kz <= 6; ++kz) {
+        const Eigen::Vector3i k(kx, 0, kz);
+        const Vec3 x = image_of(c.what.periods, xyz(c.points[static_cast<std::size_t>(i)]), k);
+        for (Index s = 0; s < 96; ++s) {
+          if (!(closest_on_segment(c.surface, s, x).distance2 < 0.4 * 0.4)) continue;
+          ++within;
+          REQUIRE((row < list.n_rows() && list.point[row] == i));
+          bool found = false;
+          for (Index e = list.begin[row]; e < list.begin[row + 1]; ++e) {
+            found = found || (list.segment[e] == s && list.image[e] == k);
+          }
+          REQUIRE(found);
+        }
+      }
+    }
+  }
+  CHECK(within > 300);
+  CHECK(list.segment.size() < 3 * within);
+}
+
+TEST_CASE("segment search: a point that is wrapped has not moved", "[search][contact]") {
+  const std::vector<Line> x0{{6.9, 0, 0, 0}, {1, 0, 0, 0}};
+  const std::vector<Line> x{{0.1, 0, 0, 0}, {1.2, 0, 0, 0}};  // both by 0.2, one across the end
+  const std::vector<Line> y0{{0, 0, 1, 0}};
+  const std::vector<Line> y{{0.2, 0, 1, 0}};
+  CHECK(relative_displacement(x, x0, y, y0, {{7, 0, 0}}) == Approx(0).margin(1e-14));
+  CHECK(relative_displacement(x, x0, y, y0) == Approx(7));
+}
