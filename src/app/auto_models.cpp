@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "contact/kernel_contact.hpp"
 #include "contact/part_contact.hpp"
 #include "plan/vote_of_part.hpp"
 #include "scene/bonds.hpp"
@@ -61,6 +62,9 @@ Units units_of(Scene& scene) {
         units.join(part_of(scene, bond.nodes.front()), part_of(scene, node));
       }
     }
+  }
+  if (const KernelContacts* contacts = scene.store.find<KernelContacts>()) {
+    for (const KernelContact& c : contacts->list) units.join(c.particle_part, c.surface_part);
   }
   if (const PartContacts* contacts = scene.store.find<PartContacts>()) {
     for (const PartContact& c : contacts->list) units.join(c.sides[0].part, c.sides[1].part);

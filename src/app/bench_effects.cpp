@@ -47,6 +47,13 @@ parts:
   pool: {sph: {material: water, spacing: 10 mm}, fill: {box: {from: [0, 0, 0], to: [240 mm, 240 mm, 240 mm]}}}
   sheet: {shell: {material: skin, thickness: 3 mm}, shape: {plate: {size: [240 mm, 240 mm], elements: [12, 12], lowest_point: [0, 0, 246 mm]}}}
 output: {until: 1 s}
+)"},
+                                                  {"water_and_fine_sheet", R"(gannet: 1
+materials: {water: {card: water, c0: 30 m/s}, skin: {card: al_6061_t6}}
+parts:
+  pool: {sph: {material: water, spacing: 10 mm}, fill: {box: {from: [0, 0, 0], to: [240 mm, 240 mm, 240 mm]}}}
+  sheet: {shell: {material: skin, thickness: 3 mm}, shape: {plate: {size: [240 mm, 240 mm], elements: [24, 24], lowest_point: [0, 0, 252 mm]}}}
+output: {until: 1 s}
 )"}};
 
 struct EffectCase {
@@ -86,6 +93,8 @@ constexpr EffectCase cases[] = {
     {"mirror_walls", "water", "boundaries: {floor: {planes: {z: 0}}}"},
     {"periodic", "water", "boundaries: {b: {periodic: {x: [0, 0.24 m]}}}"},
     {"contacts", "water_and_sheet", "contacts: {touch: {between: [pool, sheet]}}"},
+    {"kernel contact", "water_and_fine_sheet",
+     "contacts: {touch: {between: [pool, sheet], type: kernel}}"},
     {"pressure", "sheet", "loads: {push: {pressure: {on: sheet, value: 1 kPa}}}"},
     {"prescribed motion", "sheet", "boundaries: {edge: {nodes: {edge_of: sheet}, fix: [x, y, z]}}"},
 };

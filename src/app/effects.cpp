@@ -71,6 +71,7 @@ std::vector<Effect> make_table() {
       plane_contact_effect(),      //
       contacts_effect(),           //
       part_contacts_effect(),      //
+      kernel_contacts_effect(),    //
       pressure_effect(),           //
       nodal_force_effect(),        //
       acceleration_effect(),       //

@@ -32,9 +32,11 @@ Schema schema() {
               .required = true};
   Key type{.name = "type",
            .kind = Kind::choice,
-           .text = "how contact is found",
+           .text =
+               "node_to_segment: a penalty normal to surfaces; kernel: a potential between "
+               "particles and nodes",
            .fallback = "node_to_segment",
-           .choices = {"node_to_segment"}};
+           .choices = {"node_to_segment", "kernel"}};
   Key friction{.name = "friction",
                .text = "coefficient of Coulomb friction",
                .fallback = "0",
@@ -46,7 +48,7 @@ Schema schema() {
                     "the shell's thickness and half the particle spacing",
                 .limits = positive()};
   Key stiffness{.name = "stiffness",
-                .text = "factor on the penalty stiffness rho0 c0^2 dx",
+                .text = "factor on the penalty stiffness rho0 c0^2 dx, or on the K of type kernel",
                 .fallback = "1",
                 .limits = positive()};
   Key damping{.name = "damping",
@@ -121,7 +123,7 @@ void for_contacts(const Keys& root, const Scene& scene, F&& f) {
   const Keys contacts = root.map("contacts");
   for (const std::string& name : contacts.names()) {
     const Keys keys = contacts.map(name);
-    if (keys.word("type") != "node_to_segment") continue;
+    if (is_kernel_contact(keys)) continue;
     const Sides sides = sides_of(keys, scene);
     if (sides.complete()) f(keys, sides);
   }

@@ -14,6 +14,9 @@ Effect contacts_effect();
 /// contacts.NAME between two parts of elements.
 Effect part_contacts_effect();
 
+/// contacts.NAME of `type: kernel`: {between, stiffness, exponent}.
+Effect kernel_contacts_effect();
+
 /// ties.NAME to a part that deforms: stands before the elements, which take their shape from nodes
 /// that it moves, and before all that adds forces, which links collect.
 Effect tie_places_effect();

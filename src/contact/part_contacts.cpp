@@ -130,6 +130,7 @@ void state(const Keys& root, Scene& scene) {
   const Keys contacts = root.map("contacts");
   for (const std::string& name : contacts.names()) {
     const Keys keys = contacts.map(name);
+    if (is_kernel_contact(keys)) continue;
     const std::array<int, 2> parts = element_parts(scene, keys.words("between"));
     if (parts[0] < 0) {
       if (keys.given("both_ways")) {

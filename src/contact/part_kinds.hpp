@@ -18,6 +18,9 @@ inline bool has_surface(const Part& part) {
   return !part.is_particles() && !is_line(part) && part.cell != Cell::point;
 }
 
+/// Whether a contact is of type kernel, which contact/kernel_contacts.cpp reads and no other.
+inline bool is_kernel_contact(const Keys& keys) { return keys.word("type") == "kernel"; }
+
 /// The numbers of two parts of elements; {-1, -1} where the names are not two, or one is no part or
 /// a part of particles.
 inline std::array<int, 2> element_parts(const Scene& scene, const std::vector<std::string>& names) {

@@ -32,6 +32,7 @@ void track_contact(Scene& scene, const std::string& name, std::vector<Field> fie
   if (told.viscous_force) add_vector(scene, prefix + "viscous_force", told.viscous_force);
   add_number(scene, prefix + "active", "1",
              [active = told.active] { return static_cast<double>(active()); });
+  if (told.numbers == nullptr) return;
   const auto number = [&told](std::size_t k) {
     return [numbers = told.numbers, k] { return (*numbers)[k]; };
   };

@@ -15,7 +15,7 @@ struct ContactTold {
   std::function<Vec3()> force;               ///< on its second side [N]
   std::function<Vec3()> viscous_force = {};  ///< the share of friction in it [N]; empty: not told
   std::function<std::size_t()> active;       ///< how many pairs push
-  const Array<double>* numbers = nullptr;    ///< where it counts overlaps at the start
+  const Array<double>* numbers = nullptr;    ///< where it counts overlaps at the start; or not told
   std::size_t overlaps = 0;                  ///< place of their count; the largest [m] comes next
 };
 

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "kernel/smoothing_kernel.hpp"
+
 namespace gannet {
 
 /// The material of the particles of one part; zeros where a part is not made of particles.
@@ -11,6 +13,7 @@ struct ParticleMaterial {
   double spacing = 0;  ///< initial distance of neighbouring particles [m]
   double rho0 = 0;     ///< reference density [kg/m^3]
   double c0 = 0;       ///< speed of sound at rho0 [m/s]
+  SmoothingKernel kernel{};
 };
 
 /// scene.store.get<ParticleMaterials>().of_part[p] belongs to scene.parts[p]; may be shorter than

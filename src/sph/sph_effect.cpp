@@ -248,7 +248,7 @@ void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& 
     sph.parts.push_back(number);
     sph.c0 = std::max(sph.c0, c0);
     sph.rho0 = std::max(sph.rho0, eos.rho0);
-    materials[number] = {sph.dx, eos.rho0, c0};
+    materials[number] = {sph.dx, eos.rho0, c0, sph.kernel};
   }
 }
 

@@ -96,6 +96,11 @@ Sample border_sample() {
   return {[] { return std::make_unique<WatchedRun>(bodies_at_border(bodies)); }, 150, false};
 }
 
+Sample kernel_sample() {
+  return {[] { return std::make_unique<WatchedRun>(kernel_bodies(bodies_at_border(bodies))); }, 150,
+          false};
+}
+
 Sample moored_sample() {
   return {[] { return std::make_unique<WatchedRun>(moored); }, 150, false};
 }
@@ -422,6 +427,12 @@ TEST_CASE("same bits: a body across a periodic border, 1, 2, 3 and 5 threads, an
           "[bits]") {
   check_threads(border_sample());
   check_restart(border_sample());
+}
+
+TEST_CASE("same bits: kernel contact across a periodic border, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(kernel_sample());
+  check_restart(kernel_sample());
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

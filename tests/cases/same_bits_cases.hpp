@@ -257,6 +257,16 @@ inline std::string bodies_at_border(std::string text) {
   return text;
 }
 
+/// The same with kernel contact, for which the skin of the box has nodes a spacing apart.
+inline std::string kernel_bodies(std::string text) {
+  const auto put = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  put("elements: [8, 4, 8, 4]", "elements: [21, 10, 21, 10]");
+  put("friction: 0.2", "type: kernel");
+  return text;
+}
+
 /// A box that floats askew in a pool of 100 x 30 particles, held by two lines that are tied to it
 /// and advance with it in eight or more substeps a step of the water.
 inline const std::string moored = R"case(gannet: 1

@@ -1,0 +1,302 @@
+#include "contact/kernel_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include "base/parallel.hpp"
+#include "contact/outer_faces.hpp"
+#include "contact/track_contact.hpp"
+#include "plan/effect.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr Index row_chunk = 64;
+
+std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+
+std::span<const Line> particles_of(const Scene& scene, const Array<Line>& lines) {
+  return {lines.data() + scene.particles.begin, at(scene.particles.size())};
+}
+
+std::span<const Line> owned(const Scene& scene, const Array<Line>& lines) {
+  return {lines.data(), at(scene.particles.size())};
+}
+
+double area_of(const Surface& surface, const Nodes& nodes, const Segment& g) {
+  const auto x = [&](std::size_t k) { return xyz(nodes.x[at(surface.node[g.corner[k]])]); };
+  if (g.n_corners == 2) return (x(1) - x(0)).norm();
+  if (g.n_corners == 3) return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
+  return 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
+}
+
+/// Volumes of the nodes from those elements that are still there.
+void add_up_volumes(KernelContact& c) {
+  c.V_node.assign(c.surface.node.size(), 0);
+  for (std::size_t s = 0; s < c.surface.segments.size(); ++s) {
+    if (has_left(c.surface, static_cast<Index>(s))) continue;
+    const Segment& g = c.surface.segments[s];
+    for (int k = 0; k < g.n_corners; ++k) c.V_node[at(g.corner[at(k)])] += c.V_share[s];
+  }
+}
+
+/// For each node its pairs, in their order.
+void turn_round(KernelContact& c) {
+  c.node_begin.assign(c.surface.node.size() + 1, 0);
+  for (const Index j : c.candidates.segment) ++c.node_begin[at(j) + 1];
+  for (std::size_t j = 0; j < c.surface.node.size(); ++j) c.node_begin[j + 1] += c.node_begin[j];
+  c.pair_of_node.resize(c.candidates.segment.size());
+  std::vector<Index> next(c.node_begin.begin(), c.node_begin.end() - 1);
+  for (std::size_t pair = 0; pair < c.candidates.segment.size(); ++pair) {
+    c.pair_of_node[at(next[at(c.candidates.segment[pair])]++)] = static_cast<Index>(pair);
+  }
+}
+
+void finish_list(KernelContact& c) {
+  turn_round(c);
+  c.pair_force.resize(c.candidates.segment.size());
+  c.pair_stiffness.resize(c.candidates.segment.size());
+  c.particle_stiffness.resize(at(c.candidates.n_rows()));
+}
+
+/// The list from the positions in x_search and node_x_search.
+void make_list(const Scene& scene, KernelContact& c) {
+  SegmentSearch what{.points = owned(scene, c.x_search),
+                     .group = {scene.particle_part.data(), at(scene.particles.size())},
+                     .wanted_group = c.particle_part,
+                     .corner_points = c.node_x_search,
+                     .segments = c.points,
+                     .periods = *c.periods};
+  what.reach = c.law.kernel.reach() + c.search_numbers[0];
+  find_candidates(what, c.candidates);
+  finish_list(c);
+}
+
+/// A quarter of a spacing, up to a whole one where that is crossed within eight steps.
+double skin_of(const Scene& scene, const KernelContact& c, const Step& step) {
+  const Vec3 v_surface =
+      c.surface.node.empty() ? Vec3(Vec3::Zero()) : xyz(scene.nodes.v[at(c.surface.node[0])]);
+  const auto v = particles_of(scene, scene.nodes.v);
+  const double v2 = parallel_reduce(
+      scene.particles.size(), node_chunk, 0.0,
+      [&](Index begin, Index end) {
+        double most = 0;
+        for (Index i = begin; i < end; ++i) {
+          most = std::max(most, (xyz(v[at(i)]) - v_surface).squaredNorm());
+        }
+        return most;
+      },
+      [](double a, double b) { return std::max(a, b); });
+  const double dp = std::pow(c.V_particle, 1.0 / c.law.kernel.dimension);
+  double skin = std::clamp(8 * step.dt_old * std::sqrt(v2), 0.25 * dp, dp);
+  for (const double L : c.periods->length) {
+    if (L > 0) skin = std::min(skin, 0.25 * L);
+  }
+  return skin;
+}
+
+/// What one row, a particle, adds up over its nodes.
+struct RowSum {
+  double energy = 0;
+  Vec3 force = Vec3::Zero();
+  Index active = 0;
+  RowSum operator+(const RowSum& other) const {
+    return {energy + other.energy, force + other.force, active + other.active};
+  }
+};
+
+/// Forces of the pairs of a row; adds their sum to the particle.
+RowSum push_particle(Scene& scene, KernelContact& c, Index row, const Vec3& moved) {
+  const Index point = c.candidates.point[row];
+  Line& f = scene.nodes.f[at(scene.particles.begin + point)];
+  const Vec3 x = xyz(scene.nodes.x[at(scene.particles.begin + point)]);
+  const bool repeats = !c.candidates.image.empty();
+  const Vec3 place = repeats ? image_near(*c.periods, x, xyz(c.x_search[point]) + moved) : x;
+  const double reach2 = std::pow(c.law.kernel.reach(), 2);
+  RowSum sum;
+  double stiffness = 0;
+  for (Index e = c.candidates.begin[row]; e < c.candidates.begin[row + 1]; ++e) {
+    const Index j = c.candidates.segment[e];
+    const Vec3 here = repeats ? image_of(*c.periods, place, c.candidates.image[e]) : place;
+    const Vec3 r = here - xyz(c.surface.x[j]);
+    const double r2 = r.squaredNorm();
+    c.pair_force[at(e)].setZero();
+    c.pair_stiffness[at(e)] = 0;
+    const double VV = c.V_particle * c.V_node[at(j)];
+    if (!(r2 < reach2) || VV == 0) continue;
+    const double distance = std::sqrt(r2);
+    c.pair_force[at(e)] = VV * c.law.force_by_distance(distance) * r;
+    c.pair_stiffness[at(e)] = VV * c.law.stiffness_at(distance);
+    stiffness += c.pair_stiffness[at(e)];
+    sum.energy += VV * c.law.potential(distance);
+    sum.force += c.pair_force[at(e)];
+  }
+  c.particle_stiffness[at(row)] = stiffness;
+  sum.active = sum.energy > 0 ? 1 : 0;
+  add_xyz(f, sum.force);
+  return sum;
+}
+
+/// The opposite forces, gathered by node.
+void push_nodes(Scene& scene, KernelContact& c) {
+  parallel_for(c.surface.n_nodes(), row_chunk, [&](Index begin, Index end) {
+    for (Index j = begin; j < end; ++j) {
+      Vec3 force = Vec3::Zero();
+      double stiffness = 0;
+      for (Index k = c.node_begin[at(j)]; k < c.node_begin[at(j) + 1]; ++k) {
+        const auto pair = at(c.pair_of_node[at(k)]);
+        force -= c.pair_force[pair];
+        stiffness += c.pair_stiffness[pair];
+      }
+      add_xyz(scene.nodes.f[at(c.surface.node[j])], force);
+      c.node_stiffness[at(j)] = stiffness;
+    }
+  });
+}
+
+ContactRate rate_of(const Scene& scene, const KernelContact& c) {
+  ContactRate rate;
+  const auto consider = [&](double omega2, Index node) {
+    if (omega2 > rate.omega2) rate = {omega2, node};
+  };
+  for (Index row = 0; row < c.candidates.n_rows(); ++row) {
+    const Index node = scene.particles.begin + c.candidates.point[row];
+    consider(2 * c.particle_stiffness[at(row)] * scene.nodes.v[at(node)].w, node);
+  }
+  std::map<Index, double> of_bodies;
+  for (std::size_t j = 0; j < c.node_stiffness.size(); ++j) {
+    const Index node = c.surface.node[j];
+    const Index leader = c.followers->leader_of(node);
+    if (leader < 0) {
+      consider(2 * c.node_stiffness[j] * scene.nodes.v[at(node)].w, node);
+    } else {
+      of_bodies[leader] += 2 * c.node_stiffness[j] * c.followers->inverse_mass[at(node)];
+    }
+  }
+  for (const auto& [leader, omega2] : of_bodies) consider(omega2, leader);
+  return rate;
+}
+
+/// Fields and measures.
+void track(Scene& scene, KernelContact& c) {
+  const auto none = GhostRule::none;
+  c.x_search.resize(at(scene.particles.size()));
+  c.node_x_search.resize(c.surface.node.size());
+  c.search_numbers = {-1};
+  track_contact(scene, c.name,
+                {line_field("x_search", "m", "", Over::particles, c.x_search, 0, 3, none),
+                 line_field("node_x_search", "m", "", Over::scene, c.node_x_search, 0, 3, none),
+                 plain_field("search_numbers", "", "", Over::scene, c.search_numbers, 1, none)},
+                {.force = [&c] { return c.on_surface; }, .active = [&c] { return at(c.active); }});
+}
+
+std::string who_limits(const Scene& scene, const KernelContact& c) {
+  if (c.rate.node < 0) return "contact " + c.name;
+  return fmt::format("contact {}: {} {}", c.name,
+                     scene.particles.contains(c.rate.node) ? "particle" : "node",
+                     scene.nodes.id[at(c.rate.node)]);
+}
+
+}  // namespace
+
+KernelContact& make_kernel_contact(Scene& scene, const std::string& name, int particle_part,
+                                   int surface_part) {
+  KernelContact& c = scene.store.get<KernelContacts>().list.emplace_back();
+  c.name = name;
+  c.particle_part = particle_part;
+  c.surface_part = surface_part;
+  c.followers = &scene.store.get<Followers>();
+  c.periods = &scene.store.get<Periods>();
+  const Part& part = scene.parts[at(surface_part)];
+  c.surface = make_surface(part.kind == "solid" ? outer_faces(part).faces : part);
+  for (Index j = 0; j < c.surface.n_nodes(); ++j) c.points.push_back({j, j, j, j});
+  c.node_stiffness.resize(c.surface.node.size());
+  track(scene, c);
+  scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
+  scene.after_restart.push_back([&scene, &c] {
+    if (c.search_numbers[0] >= 0) make_list(scene, c);
+  });
+  return c;
+}
+
+double longest_edge(const Nodes& nodes, const Surface& surface) {
+  double longest = 0;
+  for (const Segment& g : surface.segments) {
+    for (int k = 0; k < g.n_corners; ++k) {
+      const Index a = surface.node[g.corner[at(k)]];
+      const Index b = surface.node[g.corner[at((k + 1) % g.n_corners)]];
+      longest = std::max(longest, (xyz(nodes.x[at(a)]) - xyz(nodes.x[at(b)])).norm());
+    }
+  }
+  return longest;
+}
+
+void take_volumes(KernelContact& c, const Nodes& nodes, double thickness) {
+  c.thickness = thickness;
+  c.V_share.clear();
+  for (const Segment& g : c.surface.segments) {
+    c.V_share.push_back(area_of(c.surface, nodes, g) * thickness / g.n_corners);
+  }
+}
+
+void search(Scene& scene, KernelContact& c, const Step& step) {
+  update_surface(scene.nodes, c.surface);
+  add_up_volumes(c);
+  const auto x = particles_of(scene, scene.nodes.x);
+  if (c.search_numbers[0] >= 0) {
+    const Array<Index> before = c.candidates.point;
+    order_rows(c.candidates);
+    if (c.candidates.point != before) finish_list(c);
+    const double moved = relative_displacement(x, owned(scene, c.x_search), c.surface.x,
+                                               c.node_x_search, *c.periods);
+    if (moved <= c.search_numbers[0]) return;
+  }
+  std::copy(x.begin(), x.end(), c.x_search.begin());
+  std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
+  c.search_numbers[0] = skin_of(scene, c, step);
+  make_list(scene, c);
+}
+
+void apply_kernel_contact(Scene& scene, KernelContact& c) {
+  const Vec3 moved =
+      c.periods->any() ? mean_displacement(c.surface.x, c.node_x_search) : Vec3(Vec3::Zero());
+  const RowSum sum =
+      parallel_sum(c.candidates.n_rows(), row_chunk, RowSum{}, [&](Index begin, Index end) {
+        RowSum part;
+        for (Index row = begin; row < end; ++row) part = part + push_particle(scene, c, row, moved);
+        return part;
+      });
+  push_nodes(scene, c);
+  c.energy = sum.energy;
+  c.on_surface = -sum.force;
+  c.active = sum.active;
+  c.rate = rate_of(scene, c);
+}
+
+void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& ledger) {
+  model.plan.add({.name = "contact " + c.name,
+                  .reason = asked_for_at(c.where),
+                  .stage = Stage::force,
+                  .reads = {"x", "v"},
+                  .writes = {"f"},
+                  .owns = {"contact." + c.name + ".x_search"},
+                  .run =
+                      [&scene, &c](const Step& step) {
+                        search(scene, c, step);
+                        apply_kernel_contact(scene, c);
+                      },
+                  .stable_dt = [&c] { return contact_step(c.rate.omega2, 0); },
+                  .limited_by = [&scene, &c] { return who_limits(scene, c); }});
+  LedgerEntry& entry = ledger.entry("contact", c.name);
+  model.plan.add({.name = "contact " + c.name + ": energy",
+                  .reason = asked_for_at(c.where),
+                  .stage = Stage::look,
+                  .run = [&c, &entry](const Step&) { entry.value = c.energy; }});
+}
+
+}  // namespace gannet
