@@ -56,31 +56,33 @@ std::vector<Effect> make_table() {
       shifting_effect(),  // after XSPH: both move particles in the drift
       renormalisation_effect(),
       cavities_effect(),
-      walls_effect(),              // built around the particles; follows their passes
-      sea_effect(),                // carries what fills and walls have made
-      shell_effect(),              //
-      solid_effect(),              //
-      cable_effect(),              //
-      moorings_effect(),           //
-      beam_effect(),               //
-      rigid_bodies_effect(),       // takes the masses of the elements, and gathers their forces
-      mass_scaling_effect(),       // what those elements have made of it
-      rigid_surface_effect(),      //
-      displaced_fill_effect(),     // when all parts have their points
-      carried_walls_effect(),      // likewise; they move after their bodies
-      plane_contact_effect(),      //
-      contacts_effect(),           //
-      part_contacts_effect(),      //
-      kernel_contacts_effect(),    //
-      pressure_effect(),           //
-      nodal_force_effect(),        //
-      acceleration_effect(),       //
-      ties_effect(),               // nodes that bodies take over
-      periodic_effect(),           // copies out what moved, adds back what ghosts collected
-      mirror_walls_effect(),       // images at walls; adds to what planes measure
-      prescribed_motion_effect(),  // after all forces: measures the reactions
-      tie_motion_effect(),         // of what is tied, after what it is tied to
-      probes_effect(),             //
+      walls_effect(),               // built around the particles; follows their passes
+      sea_effect(),                 // carries what fills and walls have made
+      shell_effect(),               //
+      solid_effect(),               //
+      cable_effect(),               //
+      moorings_effect(),            //
+      beam_effect(),                //
+      rigid_bodies_effect(),        // takes the masses of the elements, and gathers their forces
+      rigid_phases_effect(),        // which bodies are not these; see below for their motion
+      mass_scaling_effect(),        // what those elements have made of it
+      rigid_surface_effect(),       //
+      displaced_fill_effect(),      // when all parts have their points
+      carried_walls_effect(),       // likewise; they move after their bodies
+      plane_contact_effect(),       //
+      contacts_effect(),            //
+      part_contacts_effect(),       //
+      kernel_contacts_effect(),     //
+      pressure_effect(),            //
+      nodal_force_effect(),         //
+      acceleration_effect(),        //
+      ties_effect(),                // nodes that bodies take over
+      periodic_effect(),            // copies out what moved, adds back what ghosts collected
+      mirror_walls_effect(),        // images at walls; adds to what planes measure
+      prescribed_motion_effect(),   // after all forces: measures the reactions
+      rigid_phase_motion_effect(),  // likewise: what nodes do together, once they are kicked
+      tie_motion_effect(),          // of what is tied, after what it is tied to
+      probes_effect(),              //
       wall_force_effect(),
       flow_probes_effect(),
       sph_probes_effect(),  //

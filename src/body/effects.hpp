@@ -45,6 +45,13 @@ Effect part_damping_effect();
 /// effects that make parts of elements.
 Effect rigid_bodies_effect();
 
+/// bodies.NAME.rigid: parts that are rigid for a time. Stands before `ties`, which look at what
+/// they tie to.
+Effect rigid_phases_effect();
+
+/// Their motion. Stands after all that kicks, damps or holds nodes, and after mass scaling.
+Effect rigid_phase_motion_effect();
+
 /// probes.NAME.wall_force: force on a wall or a part, split into pressure and viscosity.
 Effect wall_force_effect();
 

@@ -83,7 +83,8 @@ std::vector<Keys> bodies_of(const Keys& root) {
   std::vector<Keys> list;
   if (!root.has("bodies")) return list;
   for (const std::string& name : root.map("bodies").names()) {
-    list.push_back(root.map("bodies").map(name));
+    const Keys keys = root.map("bodies").map(name);
+    if (!keys.given("rigid")) list.push_back(keys);  // else: body/rigid_phases_effect.cpp
   }
   return list;
 }

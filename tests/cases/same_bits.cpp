@@ -15,6 +15,7 @@
 #include "../support/temporary_folder.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "body/rigid_phase.hpp"
 #include "output/checkpoint.hpp"
 #include "output/folder.hpp"
 #include "same_bits_cases.hpp"
@@ -99,6 +100,10 @@ Sample border_sample() {
 Sample kernel_sample() {
   return {[] { return std::make_unique<WatchedRun>(kernel_bodies(bodies_at_border(bodies))); }, 150,
           false};
+}
+
+Sample rigid_and_back_sample() {
+  return {[] { return std::make_unique<WatchedRun>(rigid_and_back); }, 150, false};
 }
 
 Sample moored_sample() {
@@ -433,6 +438,14 @@ TEST_CASE("same bits: kernel contact across a periodic border, 1, 2, 3 and 5 thr
           "[bits]") {
   check_threads(kernel_sample());
   check_restart(kernel_sample());
+}
+
+TEST_CASE("same bits: a body that is rigid for a time, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(rigid_and_back_sample());
+  check_restart(rigid_and_back_sample());
+  const auto end = run(rigid_and_back_sample(), 1);
+  CHECK(end->s->scene.store.get<RigidPhases>().list.front().phase[0] == 2);
 }
 
 TEST_CASE("same bits: solids that yield, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

@@ -454,4 +454,19 @@ contacts:
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// Two blocks that meet; one of them is rigid up to then, and again after a while.
+inline const std::string rigid_and_back = R"case(gannet: 1
+materials: {gum: {density: 1100, young: 20 MPa, poisson: 0.4}}
+parts:
+  low:
+    solid: {material: gum}
+    shape: {block: {from: [0, 0, 0], to: [0.2, 0.2, 0.05], elements: [16, 16, 4]}}
+  high:
+    solid: {material: gum}
+    shape: {block: {from: [0.03, 0.02, 0.0505], to: [0.15, 0.14, 0.12], elements: [12, 12, 6]}}
+bodies: {high: {parts: high, velocity: [0, 0, -10], angular_velocity: [3, 5, 40], rigid: {until_contact: yes, again_from: 1.2 ms}}}
+contacts: {hit: {between: [low, high], friction: 0.2}}
+output: {until: 10 s, checkpoint: never}
+)case";
+
 }  // namespace gannet::test

@@ -1,0 +1,142 @@
+// Parts that are rigid for a time: no strain before, momenta and energy over the switch and back.
+#include "body/rigid_phase.hpp"
+#include "running.hpp"
+
+using namespace gannet;
+using namespace gannet::test;
+
+namespace {
+
+/// A plate of shells that tumbles in free flight.
+std::string tumbling(const std::string& rigid) {
+  return fmt::format(R"case(gannet: 1
+materials: {{skin: {{density: 2700, young: 70 GPa, poisson: 0.3}}}}
+parts:
+  plate:
+    shell: {{material: skin, thickness: 5 mm}}
+    shape: {{plate: {{size: [0.3, 0.2], elements: [9, 6], centre: [0.1, 0.2, 0.3], tilt: 20 deg}}}}
+bodies: {{plate: {{parts: plate, velocity: [3, -2, 5], angular_velocity: [200, 300, -400], rigid: {}}}}}
+effects: {{guards: off}}
+output: {{until: 1 s, checkpoint: never}}
+)case",
+                     rigid);
+}
+
+/// About the origin, of velocities at n-1/2: of nodes with rotations too, and of parts that are
+/// rigid that of the body, from which that of the chords which nodes walk along differs by (omega
+/// dt)^2.
+Vec3 angular(Scene& scene) {
+  Vec3 sum = angular_momentum(scene).sum;
+  for (Index i = scene.nodes.rotating.begin; i < scene.nodes.rotating.end; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    sum += scene.nodes.torque[k].w * xyz(scene.nodes.omega[k]);
+  }
+  for (const RigidPhase& p : scene.store.get<RigidPhases>().list) {
+    if (!p.is_rigid()) continue;
+    sum += Vec3(p.L[0], p.L[1], p.L[2]) -
+           spin_about(scene.nodes, p.nodes, mass_centre(scene.nodes, p.nodes));
+  }
+  return sum;
+}
+
+/// Two blocks of gum that meet at 10 m/s in free flight, the first of them rigid until then.
+const std::string meeting = R"case(gannet: 1
+materials: {gum: {density: 1100, young: 20 MPa, poisson: 0.4}}
+parts:
+  low:
+    solid: {material: gum}
+    shape: {block: {from: [0, 0, 0], to: [0.2, 0.2, 0.05], elements: [8, 8, 2]}}
+  high:
+    solid: {material: gum}
+    shape: {block: {from: [0.03, 0.02, 0.06], to: [0.15, 0.14, 0.12], elements: [6, 6, 3]}}
+bodies: {high: {parts: high, velocity: [0, 0, -10], angular_velocity: [3, 5, 40], rigid: until_contact}}
+contacts: {hit: {between: [low, high]}}
+output: {until: 1 s, checkpoint: never}
+)case";
+
+}  // namespace
+
+TEST_CASE("rigid for a time: free flight keeps momenta and energy over switches", "[physics]") {
+  const auto s = make_simulation_of_text(tumbling("{until: 4 ms, again_from: 8 ms}"));
+  advance(s->models);
+  const Vec3 p0 = linear_momentum(s->scene).sum;
+  const Vec3 L0 = angular(s->scene);
+  const double scale = angular_momentum(s->scene).scale;
+  const double kinetic = ledger_sum(*s, "kinetic");
+  double worst_p = 0;
+  double worst_L = 0;
+  double strained = 0;   // internal energy while rigid at first
+  double vibrating = 0;  // largest internal energy once released
+  double jump = 0;       // of the kinetic energy in the step of release
+  double last = kinetic;
+  bool was_rigid = true;
+  int switches = 0;
+  run_until(*s, 0.012, [&] {
+    const bool rigid = measured(s->scene, "body.plate.rigid") == 1;
+    const double now = ledger_sum(*s, "kinetic");
+    const double internal = std::abs(ledger_sum(*s, "internal"));
+    if (rigid != was_rigid) {
+      ++switches;
+      if (!rigid) jump = std::abs(now - last) / kinetic;
+    }
+    if (switches == 0) strained = std::max(strained, internal);
+    if (switches == 1) vibrating = std::max(vibrating, internal);
+    was_rigid = rigid;
+    last = now;
+    worst_p = std::max(worst_p, (linear_momentum(s->scene).sum - p0).norm() / p0.norm());
+    worst_L = std::max(worst_L, (angular(s->scene) - L0).norm() / scale);
+  });
+  fmt::print(
+      "tumbling plate: momentum {:.1e}, angular {:.1e}, internal energy {:.1e} while rigid and "
+      "{:.1e} after, of {:.3g} J; kinetic energy jumps by {:.1e} at release; energy error {:.1e}, "
+      "locking {:.2e} J\n",
+      worst_p, worst_L, strained, vibrating, kinetic, jump, energy_error(*s),
+      ledger_sum(*s, "locking"));
+  CHECK(switches == 2);
+  CHECK(worst_p < 1e-12);
+  CHECK(worst_L < 1e-9);
+  CHECK(strained < 1e-15 * kinetic);
+  CHECK(vibrating > 1e-6 * kinetic);
+  CHECK(jump < 1e-5);  // (omega dt)^2 of the chords
+  CHECK(energy_error(*s) < 1e-3);
+}
+
+TEST_CASE("rigid for a time: a block deforms once it is touched", "[physics]") {
+  const auto s = make_simulation_of_text(meeting);
+  advance(s->models);
+  const Vec3 p0 = linear_momentum(s->scene).sum;
+  const Vec3 L0 = angular(s->scene);
+  const double scale = angular_momentum(s->scene).scale;
+  double released = -1;
+  double touched = -1;
+  double before = 0;
+  double worst_p = 0;
+  double worst_L = 0;
+  double internal = 0;
+  const auto energy_of_high = [&] {
+    double sum = 0;
+    for (const LedgerEntry& e : s->models.ledger.entries()) {
+      if (e.name == "internal" && e.part == "high") sum += e.value;
+    }
+    return sum;
+  };
+  run_until(*s, 4e-3, [&] {
+    if (touched < 0 && measured(s->scene, "contact.hit.active") > 0) touched = time_of(*s);
+    if (released < 0 && measured(s->scene, "body.high.rigid") == 0) released = time_of(*s);
+    if (released < 0) before = std::max(before, std::abs(energy_of_high()));
+    internal = std::max(internal, energy_of_high());
+    worst_p = std::max(worst_p, (linear_momentum(s->scene).sum - p0).norm() / p0.norm());
+    worst_L = std::max(worst_L, (angular(s->scene) - L0).norm() / scale);
+  });
+  fmt::print(
+      "block: touched at {:.4g} ms, released at {:.4g} ms, internal energy {:.1e} J before and "
+      "{:.3g} J after; momentum {:.1e}, angular {:.1e}, energy error {:.1e}\n",
+      1e3 * touched, 1e3 * released, before, internal, worst_p, worst_L, energy_error(*s));
+  CHECK(released > 0);
+  CHECK(released == touched);
+  CHECK(before < 1e-12 * internal);
+  CHECK(internal > 1);
+  CHECK(worst_p < 1e-12);
+  CHECK(worst_L < 1e-9);
+  CHECK(energy_error(*s) < 0.01);
+}
