@@ -144,8 +144,8 @@ Camera enlarged(Camera camera, double factor) {
 
 }  // namespace
 
-Image draw_picture(const DrawnFrame& frame, const PictureSetup& setup, const Shown& shown,
-                   const PictureOptions& options) {
+Raster draw_picture(const DrawnFrame& frame, const PictureSetup& setup, const Shown& shown,
+                    const PictureOptions& options) {
   const Area area = scene_area(options.width, options.height);
   Drawing d{.frame = frame,
             .setup = setup,
@@ -164,7 +164,7 @@ Image draw_picture(const DrawnFrame& frame, const PictureSetup& setup, const Sho
   darken_gaps(canvas, 3 * oversampling, 0.9);
   if (options.opacity < 1) draw_faces(canvas, pieces, options.opacity);
   draw_edges(canvas, pieces, oversampling);
-  Image image = shrink(canvas.image, oversampling);
+  Raster image = shrink(canvas.image, oversampling);
   merge_shades(image);
   draw_title(image, options.title, time_text(frame.t, setup.last_time));
   draw_colour_bar(image, shown.label, shown.unit, d.ticks);

@@ -56,7 +56,7 @@ PictureSetup setup_of(const DrawnFrame& first, const PictureOptions& options);
 void include_frame(PictureSetup& setup, const DrawnFrame& frame, const PictureOptions& options);
 
 /// Draws a frame: four times the pixels, then means of them; then the legend.
-Image draw_picture(const DrawnFrame& frame, const PictureSetup& setup, const Shown& shown,
-                   const PictureOptions& options);
+Raster draw_picture(const DrawnFrame& frame, const PictureSetup& setup, const Shown& shown,
+                    const PictureOptions& options);
 
 }  // namespace gannet

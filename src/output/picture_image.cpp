@@ -39,14 +39,14 @@ Rgb shaded(Rgb colour, float brightness) {
   return {part(colour.r), part(colour.g), part(colour.b)};
 }
 
-Image::Image(int columns, int rows, Rgb background)
+Raster::Raster(int columns, int rows, Rgb background)
     : width(columns), height(rows), pixels(n_pixels(columns, rows), background) {}
 
 Canvas::Canvas(int columns, int rows, Rgb background)
     : image(columns, rows, background), depth(n_pixels(columns, rows), nothing) {}
 
-Image shrink(const Image& image, int factor) {
-  Image small(image.width / factor, image.height / factor, {});
+Raster shrink(const Raster& image, int factor) {
+  Raster small(image.width / factor, image.height / factor, {});
   const unsigned area = static_cast<unsigned>(factor) * static_cast<unsigned>(factor);
   parallel_for(small.height, 16, [&](Index begin, Index end) {
     for (int row = begin; row < end; ++row) {
@@ -70,12 +70,12 @@ Image shrink(const Image& image, int factor) {
   return small;
 }
 
-void merge_shades(Image& image) {
+void merge_shades(Raster& image) {
   const auto rounded = [](std::uint8_t v) { return static_cast<std::uint8_t>((v + 2) / 5 * 5); };
   for (Rgb& p : image.pixels) p = {rounded(p.r), rounded(p.g), rounded(p.b)};
 }
 
-void write_png(const Image& image, const std::string& path) {
+void write_png(const Raster& image, const std::string& path) {
   vtkNew<vtkImageData> data;
   data->SetDimensions(image.width, image.height, 1);
   data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

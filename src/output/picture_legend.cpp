@@ -44,13 +44,13 @@ std::string tick_text(double value, double step) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
-void draw_title(Image& image, const std::string& title, const std::string& time) {
+void draw_title(Raster& image, const std::string& title, const std::string& time) {
   const double u = unit_of(image.width, image.height);
   draw_text(image, margin * u, 40 * u, title, {.height = 16 * u, .colour = ink});
   draw_text(image, margin * u, 70 * u, "t = " + time, {.height = 14 * u, .colour = pale_ink});
 }
 
-void draw_colour_bar(Image& image, const std::string& label, const std::string& si_unit,
+void draw_colour_bar(Raster& image, const std::string& label, const std::string& si_unit,
                      const Ticks& ticks) {
   const double u = unit_of(image.width, image.height);
   const double right = image.width - bar_to_edge * u;

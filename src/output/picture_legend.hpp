@@ -20,10 +20,10 @@ std::string time_text(double t, double last);
 std::string tick_text(double value, double step);
 
 /// Title and time at the top left.
-void draw_title(Image& image, const std::string& title, const std::string& time);
+void draw_title(Raster& image, const std::string& title, const std::string& time);
 
 /// The colour bar at the right, with a number at each tick and "label [unit]" above it.
-void draw_colour_bar(Image& image, const std::string& label, const std::string& si_unit,
+void draw_colour_bar(Raster& image, const std::string& label, const std::string& si_unit,
                      const Ticks& ticks);
 
 }  // namespace gannet

@@ -50,7 +50,7 @@ void for_each_stroke(std::string_view shape, F&& f) {
 
 }  // namespace
 
-void draw_stroke(Image& image, const Stroke& s, double pen, Rgb colour) {
+void draw_stroke(Raster& image, const Stroke& s, double pen, Rgb colour) {
   const double half = pen / 2;
   const double dx = s.x1 - s.x0;
   const double dy = s.y1 - s.y0;
@@ -81,7 +81,7 @@ double text_width(std::string_view text, double height) {
   return text.empty() ? 0 : (columns - gap) * narrowing * step_of(height);
 }
 
-void draw_text(Image& image, double left, double baseline, std::string_view text,
+void draw_text(Raster& image, double left, double baseline, std::string_view text,
                const Lettering& lettering) {
   const double down = step_of(lettering.height);
   const double across = narrowing * down;

@@ -17,7 +17,7 @@ struct Stroke {
 
 /// Draws a stroke with a pen of the given width [pixels]; the outermost pixel is mixed with what
 /// was there, by how much of it the pen covers.
-void draw_stroke(Image& image, const Stroke& stroke, double pen, Rgb colour);
+void draw_stroke(Raster& image, const Stroke& stroke, double pen, Rgb colour);
 
 /// How text looks; height of a capital letter [pixels].
 struct Lettering {
@@ -30,7 +30,7 @@ struct Lettering {
 double text_width(std::string_view text, double height);
 
 /// Writes text whose baseline begins at (left, baseline).
-void draw_text(Image& image, double left, double baseline, std::string_view text,
+void draw_text(Raster& image, double left, double baseline, std::string_view text,
                const Lettering& lettering);
 
 }  // namespace gannet

@@ -29,7 +29,7 @@ DrawnFrame two_and_a_square() {
 struct Drawn {
   PictureSetup setup;
   PictureOptions options;
-  Image image;
+  Raster image;
 
   /// The pixel that shows x.
   [[nodiscard]] Rgb at(const Vec3& x) const {

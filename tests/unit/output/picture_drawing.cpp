@@ -27,7 +27,7 @@ int n_drawn(const Canvas& canvas) {
                                         [](float d) { return d != Canvas::nothing; }));
 }
 
-int n_other_than(const Image& image, Rgb colour) {
+int n_other_than(const Raster& image, Rgb colour) {
   return static_cast<int>(
       image.pixels.size() -
       static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), colour)));
@@ -170,14 +170,14 @@ TEST_CASE("picture text: a width for each letter, a shape for each character", "
   CHECK(text_width("\xc3\xa9", 12) == text_width("?", 12));
   for (char c = '!'; c <= '~'; ++c) {
     CAPTURE(c);
-    Image image(40, 40, white);
+    Raster image(40, 40, white);
     draw_text(image, 10, 28, std::string(1, c), {.height = 16, .colour = red});
     CHECK(n_other_than(image, white) > 2);
   }
 }
 
 TEST_CASE("picture text: an I is a stroke from the baseline to the top", "[output]") {
-  Image image(20, 30, white);
+  Raster image(20, 30, white);
   draw_text(image, 10.5, 20.5, "I", {.height = 12, .colour = red});
   CHECK(image.pixels[image.at(10, 14)] == red);
   CHECK(image.pixels[image.at(10, 9)] == red);
@@ -188,10 +188,10 @@ TEST_CASE("picture text: an I is a stroke from the baseline to the top", "[outpu
 }
 
 TEST_CASE("picture image: shrinking takes means, merging keeps black and white", "[output]") {
-  Image image(4, 2, white);
+  Raster image(4, 2, white);
   image.pixels[image.at(0, 0)] = {0, 0, 0};
   image.pixels[image.at(1, 1)] = {0, 0, 0};
-  Image small = shrink(image, 2);
+  Raster small = shrink(image, 2);
   REQUIRE(small.width == 2);
   REQUIRE(small.height == 1);
   CHECK(small.pixels[0] == Rgb{128, 128, 128});
@@ -204,7 +204,7 @@ TEST_CASE("picture image: shrinking takes means, merging keeps black and white",
 TEST_CASE("picture image: a PNG reads back with its size and every pixel", "[output]") {
   const test::EmptyFolder folder("png");
   const std::string path = folder.path + "/a.png";
-  Image image(7, 5, white);
+  Raster image(7, 5, white);
   for (int row = 0; row < 5; ++row) {
     for (int column = 0; column < 7; ++column) {
       image.pixels[image.at(column, row)] = {static_cast<std::uint8_t>(column),
