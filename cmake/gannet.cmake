@@ -29,14 +29,22 @@ target_precompile_headers(gannet_common PRIVATE
   <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath>
   <cstdint> <deque> <functional> <limits> <map> <memory> <string> <vector>)
 
-# gannet_room(NAME SOURCES a.cpp ... [ISA b.isa.cpp ...] [USES other rooms and libraries ...])
-# makes the library gannet_NAME. Files under ISA are compiled once per instruction set.
+# gannet_room(NAME SOURCES a.cpp ... [ALONE b.cpp ...] [ISA c.isa.cpp ...]
+#             [USES other rooms and libraries ...])
+# makes the library gannet_NAME. Sources are compiled four at a time, for what they share takes longer
+# to compile than they do; two that meet may not give one name to what is their own. Files under ALONE
+# are compiled one by one: effects and contacts, which all call their own parts schema, state,
+# operations, track or owned. Files under ISA are compiled once per instruction set.
 function(gannet_room NAME)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;ISA;USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ALONE;ISA;USES" ${ARGN})
   set(target gannet_${NAME})
-  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(${target} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
   target_link_libraries(${target} PUBLIC gannet_common ${ROOM_USES} PRIVATE gannet_sanitizers)
   target_precompile_headers(${target} REUSE_FROM gannet_common)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  # Taken together they look like headers, whose types may not be a file's own.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   foreach(set avx2 avx512)
     if(ROOM_ISA)
       set(objects ${target}_${set})

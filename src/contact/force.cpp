@@ -11,7 +11,7 @@ namespace gannet {
 
 namespace {
 
-constexpr Index row_chunk = 512;
+constexpr Index force_chunk = 512;
 
 /// Sum of N_i a_i over the corners of a gap's segment, a: one vector a surface node.
 template <class T, class F>
@@ -78,7 +78,7 @@ Vec3 friction_force(const Vec3& t, const Vec3& slip, double k, double limit, con
 
 void contact_forces(const ContactInput& in, const ContactLaw& law, std::span<Line> t,
                     ContactForces& forces) {
-  parallel_for(in.candidates->n_rows(), row_chunk, [&](Index begin, Index end) {
+  parallel_for(in.candidates->n_rows(), force_chunk, [&](Index begin, Index end) {
     for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
       const Gap& gap = in.gaps[r];
       const bool active = gap.segment >= 0 && gap.penetration > 0;
@@ -187,7 +187,7 @@ Work contact_work(const ContactInput& in, std::span<const Vec3> force,
     }
     return work;
   };
-  return parallel_sum(in.candidates->n_rows(), row_chunk, Work(Work::Zero()), rows);
+  return parallel_sum(in.candidates->n_rows(), force_chunk, Work(Work::Zero()), rows);
 }
 
 }  // namespace gannet

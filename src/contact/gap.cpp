@@ -10,7 +10,7 @@ namespace gannet {
 
 namespace {
 
-constexpr Index row_chunk = 128;
+constexpr Index gap_chunk = 128;
 
 /// Below this share of the contact distance, x - x_cp says nothing about direction.
 constexpr double on_surface = 1e-9;
@@ -127,7 +127,7 @@ Overlaps find_gaps(const Surface& surface, const SegmentCandidates& candidates,
     }
     return found;
   };
-  return parallel_reduce(candidates.n_rows(), row_chunk, Overlaps{}, rows,
+  return parallel_reduce(candidates.n_rows(), gap_chunk, Overlaps{}, rows,
                          [](const Overlaps& a, const Overlaps& b) {
                            return Overlaps{a.count + b.count, std::max(a.largest, b.largest)};
                          });

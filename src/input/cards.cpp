@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of_file(const fs::path& file) {
+std::string text_of_card(const fs::path& file) {
   std::ifstream stream(file);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -47,7 +47,7 @@ std::vector<std::string> known_cards(const std::vector<std::string>& folders) {
     for (const auto& entry : fs::directory_iterator(folder, none)) {
       const fs::path& file = entry.path();
       if (file.extension() != ".yaml" || !entry.is_regular_file()) continue;
-      if (text_of_file(file).find("gannet_card:") == std::string::npos) continue;
+      if (text_of_card(file).find("gannet_card:") == std::string::npos) continue;
       names.insert(file.stem().string());
     }
   }
@@ -65,7 +65,7 @@ fs::path find_card(const std::string& name, const std::vector<std::string>& fold
 
 /// The card as text, without its version line; `broken` where it is no card.
 TextNode read_card(const fs::path& file, Mistakes& mistakes) {
-  TextNode card = read_yaml(text_of_file(file), shown(file), mistakes);
+  TextNode card = read_yaml(text_of_card(file), shown(file), mistakes);
   if (card.broken) return card;
   const bool first = card.form == TextNode::Form::map && card.items.front().key == "gannet_card";
   if (!first || card.items.front().text != std::to_string(card_version)) {

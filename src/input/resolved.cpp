@@ -39,7 +39,7 @@ std::string number_text(double x, const Dimension& dimension) {
   return dimension == dim::none ? number : number + " " + si_unit_of(dimension);
 }
 
-std::string scalar_text(const Value& v) {
+std::string text_of_scalar(const Value& v) {
   switch (v.kind) {
     case Kind::flag:
       return v.numbers.at(0) != 0 ? "yes" : "no";
@@ -73,7 +73,7 @@ std::string function_text(const Function& f, const std::string& word) {
 }
 
 std::string functions_text(const Value& v) {
-  if (v.kind == Kind::function && v.functions.empty()) return scalar_text(v);
+  if (v.kind == Kind::function && v.functions.empty()) return text_of_scalar(v);
   std::vector<std::string> items;
   for (std::size_t k = 0; k < v.functions.size(); ++k) {
     items.push_back(function_text(v.functions[k], k < v.words.size() ? v.words[k] : ""));
@@ -85,7 +85,7 @@ std::string functions_text(const Value& v) {
 std::string inline_text(const Value& v) {
   if (v.kind == Kind::function || v.kind == Kind::vector_function) return functions_text(v);
   if (v.is_list) return list_text(v);
-  if (!v.is_map) return scalar_text(v);
+  if (!v.is_map) return text_of_scalar(v);
   std::vector<std::string> items;
   for (const Value& child : v.children) {
     items.push_back(word_text(child.name) + ": " + inline_text(child));

@@ -15,7 +15,7 @@ namespace gannet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Strength of gravity where it points down along an axis and does not change; 0 after a complaint.
 double gravity_down(const Keys& root, int up, const Keys& sea) {

@@ -7,7 +7,7 @@ namespace gannet {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The n-th number in [0, 1) of a seed, the same on every machine: SplitMix64, Steele, Lea and
 /// Flood 2014, OOPSLA, DOI 10.1145/2660193.2660195.

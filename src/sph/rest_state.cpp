@@ -82,7 +82,7 @@ bool is_quiet(const Rest& rest, Index cell, double t) {
 }
 
 /// 1 for particles that shall rest at time t.
-Array<std::uint8_t> wanted(const Rest& rest, const Scene& scene, double t) {
+Array<std::uint8_t> may_rest(const Rest& rest, const Scene& scene, double t) {
   const Index n = scene.particles.size();
   Array<std::uint8_t> rests(static_cast<std::size_t>(n));
   parallel_for(n, node_chunk, [&](Index begin, Index end) {
@@ -295,7 +295,7 @@ bool look_for_rest(Rest& rest, const SphState& sph, const Scene& scene, double t
 }
 
 double choose_rest(Rest& rest, SphState& sph, Scene& scene, double t, double dt) {
-  const Array<std::uint8_t> rests = wanted(rest, scene, t);
+  const Array<std::uint8_t> rests = may_rest(rest, scene, t);
   const Line taken = taken_by_rest(rest, sph, scene, rests, dt);
   scene.resting.momentum += xyz(taken);
   set_states(rest, sph, scene, rests);

@@ -10,9 +10,9 @@ namespace gannet {
 
 namespace {
 
-constexpr double left = 96;
-constexpr double top = 56;
-constexpr double bottom = 352;
+constexpr double strips_left = 96;
+constexpr double strips_top = 56;
+constexpr double strips_bottom = 352;
 constexpr double column_width = 84;
 
 /// An even axis upwards, between round numbers.
@@ -21,7 +21,7 @@ struct EvenAxis {
   double step = 1;
   int n = 1;  ///< steps
   [[nodiscard]] double at(double value) const {
-    return bottom - (bottom - top) * (value - low) / (step * n);
+    return strips_bottom - (strips_bottom - strips_top) * (value - low) / (step * n);
   }
 };
 
@@ -85,7 +85,7 @@ std::string dots_of(const StripColumn& column, const EvenAxis& axis, double x) {
 
 std::string strip_plot(const std::string& title, const std::string& y_label,
                        const std::vector<StripColumn>& columns) {
-  const double right = left + column_width * static_cast<double>(columns.size());
+  const double right = strips_left + column_width * static_cast<double>(columns.size());
   const double width = std::max(right + 28, 420.0);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} 430\" width=\"{0}\" "
@@ -97,22 +97,22 @@ std::string strip_plot(const std::string& title, const std::string& y_label,
       "10 and 90 %</text>\n"
       "<text x=\"20\" y=\"{2}\" text-anchor=\"middle\" transform=\"rotate(-90 20 "
       "{2})\">{3}</text>\n",
-      width, xml_text(title), (top + bottom) / 2, xml_text(y_label));
+      width, xml_text(title), (strips_top + strips_bottom) / 2, xml_text(y_label));
   const EvenAxis axis = axis_of(columns);
   for (int k = 0; k <= axis.n; ++k) {
     const double value = axis.low + axis.step * k;
     const double shown = std::abs(value) < 1e-9 * axis.step ? 0 : value;
-    out += line(left, axis.at(value), right, axis.at(value), "stroke=\"#ddd\"");
+    out += line(strips_left, axis.at(value), right, axis.at(value), "stroke=\"#ddd\"");
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:.5g}</text>\n",
-                       left - 8, axis.at(value) + 4, shown);
+                       strips_left - 8, axis.at(value) + 4, shown);
   }
-  double x = left + column_width / 2;
+  double x = strips_left + column_width / 2;
   for (const StripColumn& column : columns) {
     out += box_of(column, axis, x) + dots_of(column, axis, x);
     out += fmt::format(
         "<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"end\" font-size=\"11\" "
         "transform=\"rotate(-25 {0:.1f} {1:.1f})\">{2}</text>\n",
-        x + 6, bottom + 18, xml_text(column.label));
+        x + 6, strips_bottom + 18, xml_text(column.label));
     x += column_width;
   }
   return out + "</svg>\n";
