@@ -35,18 +35,19 @@ Fit errors_at(const Curve& front, const std::vector<std::vector<double>>& experi
   return fit;
 }
 
-/// The one shift in time, the same for all points, that makes the worst difference, which is what
-/// is judged, smallest.
-Fit best_fit(const Curve& front, const std::vector<std::vector<double>>& experiment) {
-  Fit best{.worst = 1e300};
+/// The one shift in time, the same for all points, that makes this measure of the fit smallest.
+Fit best_fit(const Curve& front, const std::vector<std::vector<double>>& experiment,
+             double Fit::*measure = &Fit::worst) {
+  Fit best{.rms_near = 1e300, .worst = 1e300};
   for (int k = -200; k <= 200; ++k) {
     const Fit fit = errors_at(front, experiment, 0.005 * k);
-    if (fit.worst < best.worst) best = fit;
+    if (fit.*measure < best.*measure) best = fit;
   }
   return best;
 }
 
-void check_front(const std::string& spacing, const std::string& walls = "mirror") {
+/// `near` is the largest rms of Z up to 4.2 that is accepted.
+void check_front(const std::string& spacing, const std::string& walls, double near) {
   const auto s = make_simulation("cases/dam_break_2d/case.yaml",
                                  {"let.dx=" + spacing, "boundaries.tank.walls=" + walls});
   const double dx = s->scene.store.get<SphState>().dx;
@@ -69,15 +70,18 @@ void check_front(const std::string& spacing, const std::string& walls = "mirror"
   const auto experiment = read_table("cases/dam_break_2d/reference.csv");
   REQUIRE(experiment.size() == 15);
   const Fit fit = best_fit(front, experiment);
+  const Fit fit_near = best_fit(front, experiment, &Fit::rms_near);
   const Fit of_crowd = best_fit(crowd, experiment);
   WARN(fmt::format(
       "{} walls, dx {}: {} particles, shift {:.3f} in T: rms of Z {:.4f} (of the points up to "
       "Z = 4.2: {:.4f}), worst {:.1f} %; by the sixth particle: shift {:.3f}, rms "
-      "{:.4f}, worst {:.1f} %; energy error {:.2e}",
+      "{:.4f}, worst {:.1f} %; fitted up to Z = 4.2: shift {:.3f}, rms {:.4f}; energy error {:.2e}",
       walls, spacing, s->scene.particles.size(), fit.shift, fit.rms, fit.rms_near, 100 * fit.worst,
-      of_crowd.shift, of_crowd.rms, 100 * of_crowd.worst, energy_error(*s)));
+      of_crowd.shift, of_crowd.rms, 100 * of_crowd.worst, fit_near.shift, fit_near.rms_near,
+      energy_error(*s)));
   CHECK(front.t.back() > experiment.back()[0] - fit.shift);  // all points are compared
   CHECK(fit.worst < 0.1);
+  CHECK(fit_near.rms_near < near);
   CHECK(energy_error(*s) < 0.02);
 }
 
@@ -85,14 +89,14 @@ void check_front(const std::string& spacing, const std::string& walls = "mirror"
 
 TEST_CASE("physics: dam_break_2d, front after Martin and Moyce, 20 particles a width",
           "[physics]") {
-  check_front("a/20");
+  check_front("a/20", "mirror", 0.02);
 }
 
 TEST_CASE("physics: dam_break_2d between dummy particles, 20 particles a width", "[physics]") {
-  check_front("a/20", "dummy");
+  check_front("a/20", "dummy", 0.03);
 }
 
 TEST_CASE("physics: dam_break_2d, front after Martin and Moyce, 40 particles a width",
           "[.][physics_long]") {
-  check_front("a/40");
+  check_front("a/40", "mirror", 0.03);
 }
