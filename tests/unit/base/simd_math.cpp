@@ -32,7 +32,7 @@ TEST_CASE("simd math: logarithm and exponential to the last bit but one", "[base
   }
   CAPTURE(log_error, exp_error);
   CHECK(log_error < 2.3e-16);  // 1.6e-16 reached: half a unit in the last place is 1.1e-16
-  CHECK(exp_error < 2.3e-16);
+  CHECK(exp_error < 2.3e-16);  // 1.7e-16
   alignas(64) double one[8] = {1, 1, 1, 1, 1, 1, 1, 1};
   alignas(64) double out[8];
   log_of(Vec8::load(one)).store(out);
