@@ -57,8 +57,10 @@ double spacing_of(const Keys& root, const Keys& part) {
   return root.map("parts").map(wall.word("like")).map("sph").number_or("spacing", 0);
 }
 
-/// The periods of the domain as the case has them; whether they are sound is for sph/periodic.cpp.
-Periods periods_of(const Keys& root, int dimension) {
+/// The periods of the domain as the case has them; whether they are sound is for sph/periodic.cpp,
+/// which complains of those below two spacings [m] that are left out here: a unit mistaken would
+/// make images without number.
+Periods periods_of(const Keys& root, int dimension, double spacing) {
   Periods periods;
   if (!root.has("boundaries")) return periods;
   for (const std::string& name : root.map("boundaries").names()) {
@@ -66,21 +68,22 @@ Periods periods_of(const Keys& root, int dimension) {
     for (int d = 0; d < dimension; ++d) {
       const std::string axis(1, "xyz"[d]);
       if (!keys.has(axis) || keys.numbers(axis).size() != 2) continue;
-      periods.length[d] = std::max(0.0, keys.numbers(axis)[1] - keys.numbers(axis)[0]);
+      const double length = keys.numbers(axis)[1] - keys.numbers(axis)[0];
+      if (length > 2 * spacing) periods.length[d] = length;
     }
   }
   return periods;
 }
 
 void parts(const Keys& root, Draft& draft) {
-  const Periods periods = periods_of(root, draft.dimension);
   for (PartDraft& part : draft.parts) {
     const Keys keys = root.map("parts").map(part.name);
     const Keys fill = keys.map("fill");
     if (part.cell != Cell::none || !fill.has("outside") || part.points.empty()) continue;
     const ClosedSurface surface = closed_surface_of(draft, fill.words("outside"), fill, "outside");
     if (surface.facets.empty()) continue;
-    clear_inside(surface, 0.5 * spacing_of(root, keys), periods, part.points);
+    const double spacing = spacing_of(root, keys);
+    clear_inside(surface, 0.5 * spacing, periods_of(root, draft.dimension, spacing), part.points);
     if (part.points.empty()) fill.complain("outside", "leaves no particle");
   }
 }
