@@ -30,7 +30,7 @@ std::vector<Index> nodes_at(const PartTie& tie, const Part& part) {
 
 }  // namespace
 
-int layers_from(const Part& part, const std::vector<Index>& nodes) {
+int layers_from(const Part& part, const std::vector<Index>& nodes, int most) {
   const auto per_cell = static_cast<std::size_t>(nodes_per(part.cell));
   if (nodes.empty() || per_cell < 2) return 0;
   std::vector<int> layer(static_cast<std::size_t>(part.nodes.size()), -1);
@@ -38,7 +38,7 @@ int layers_from(const Part& part, const std::vector<Index>& nodes) {
     return layer[static_cast<std::size_t>(node - part.nodes.begin)];
   };
   for (const Index node : nodes) at(node) = 0;
-  for (int n = 0;; ++n) {
+  for (int n = 0; n < most; ++n) {
     bool found = false;
     for (std::size_t c = 0; c + per_cell <= part.connectivity.size(); c += per_cell) {
       const auto cell = part.connectivity.begin() + static_cast<std::ptrdiff_t>(c);
@@ -52,6 +52,7 @@ int layers_from(const Part& part, const std::vector<Index>& nodes) {
     }
     if (!found) return n;
   }
+  return most;
 }
 
 std::string missing_buffer(const Scene& scene, Models& models, const PartTie& tie) {
@@ -68,8 +69,9 @@ std::string missing_buffer(const Scene& scene, Models& models, const PartTie& ti
   const double there = vote_of_part(slow->plan, of_slow->name);
   const double here = vote_of_part(fast->plan, of_fast->name);
   if (!std::isfinite(there) || !std::isfinite(here)) return "";
-  const int layers =
-      here < share_of_step * there ? 0 : layers_from(*of_fast, nodes_at(tie, *of_fast));
+  const int layers = here < share_of_step * there
+                         ? 0
+                         : layers_from(*of_fast, nodes_at(tie, *of_fast), least_layers);
   if (layers >= least_layers) return "";
   return fmt::format(
       "'{}' ties '{}' of '{}' to '{}' of the slower '{}' with {} of elements of "

@@ -9,7 +9,8 @@ namespace gannet {
 
 /// Layers of elements of a part, counted from nodes of it: the largest number of elements on the
 /// shortest ways from these nodes to any other, 0 without nodes of the part.
-int layers_from(const Part& part, const std::vector<Index>& nodes);
+/// Counts to `most` and no further, for each layer is a pass over the part.
+int layers_from(const Part& part, const std::vector<Index>& nodes, int most);
 
 /// What a tie of parts in two models lacks for its fast side to be a buffer: at least two layers of
 /// elements whose waves the slow mesh holds too, taken as elements that allow at least 0.7 of the

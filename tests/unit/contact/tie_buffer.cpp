@@ -11,8 +11,11 @@ TEST_CASE("ties: layers of elements behind the nodes that are tied", "[contact]"
   for (const Index k : {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 5, 6, 9, 8}) {
     part.connectivity.push_back(10 + k);
   }
-  CHECK(layers_from(part, {}) == 0);
-  CHECK(layers_from(part, {10, 14}) == 3);          // the left end
-  CHECK(layers_from(part, {10, 11, 12, 13}) == 2);  // the lower side
-  CHECK(layers_from(part, {11, 15}) == 2);
+  constexpr int many = 99;
+  CHECK(layers_from(part, {}, many) == 0);
+  CHECK(layers_from(part, {10, 14}, many) == 3);          // the left end
+  CHECK(layers_from(part, {10, 11, 12, 13}, many) == 2);  // the lower side
+  CHECK(layers_from(part, {11, 15}, many) == 2);
+  CHECK(layers_from(part, {10, 14}, 2) == 2);  // no further than is asked for
+  CHECK(layers_from(part, {10, 14}, 3) == 3);
 }
