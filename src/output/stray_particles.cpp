@@ -55,6 +55,11 @@ double deepest_penetration(Scene& scene) {
   return deepest;
 }
 
+bool sees_penetration(Scene& scene) {
+  return !scene.planes.empty() ||
+         (scene.store.has<NodeToSegments>() && !scene.store.get<NodeToSegments>().list.empty());
+}
+
 LostLimits lost_limits(const Scene& scene, double dx) {
   Vec3 low = Vec3::Constant(infinity);
   Vec3 high = Vec3::Constant(-infinity);

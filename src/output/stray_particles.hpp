@@ -12,6 +12,10 @@ namespace gannet {
 /// a shell that its contact holds it off, [m]; negative or -infinity where none is behind.
 double deepest_penetration(Scene& scene);
 
+/// Whether there is anything that a particle can be behind: a plane, or a contact with segments
+/// (type node_to_segment). Nodes of kernel contact have no sides.
+bool sees_penetration(Scene& scene);
+
 /// What counts as lost.
 struct LostLimits {
   Vec3 low = Vec3::Zero();  ///< box outside of which a particle is lost [m]

@@ -95,13 +95,25 @@ bool all_finite(const Nodes& nodes) {
   return true;
 }
 
+/// A limit that nothing can break is no test.
+void complain_of_unseen_penetration(Scene& scene) {
+  if (sees_penetration(scene)) return;
+  throw InputError(std::vector<std::string>{
+      "hard.penetration: is measured behind planes and at contacts of type node_to_segment, and "
+      "here is neither; nodes of 'type: kernel' have no sides: say by hard.exact what passes "
+      "through (probe 'flow')"});
+}
+
 HardWatch::HardWatch(const HardCase& hard, Scene& scene, Models& models)
     : hard_(hard), scene_(&scene), models_(&models) {
   add("finite", 0);
   add("energy_growth", hard.energy_growth - 1);
   if (hard.energy_error) add("energy_error", *hard.energy_error);
   if (hard.momentum) add("momentum", *hard.momentum);
-  if (hard.penetration) add("penetration", *hard.penetration);
+  if (hard.penetration) {
+    complain_of_unseen_penetration(scene);
+    add("penetration", *hard.penetration);
+  }
   if (hard.smallest_spacing) add("smallest_spacing", *hard.smallest_spacing, true);
   if (hard.smallest_dt) add("smallest_dt", *hard.smallest_dt, true);
   for (const Exact& exact : hard.exact) add_probe(exact);

@@ -47,8 +47,10 @@ TEST_CASE("hard: a particle behind a plane is that deep in it", "[study]") {
   Scene scene;
   place(scene, {{0, 0, -0.3}, {0, 0, 2}});
   CHECK(std::isinf(deepest_penetration(scene)));
+  CHECK_FALSE(sees_penetration(scene));
   scene.planes.push_back({.name = "floor"});
   CHECK(deepest_penetration(scene) == Approx(0.3));
+  CHECK(sees_penetration(scene));
 }
 
 TEST_CASE("hard: NaN keeps no limit, and is not finite", "[study]") {
