@@ -102,11 +102,10 @@ double skin_of(const Scene& scene, const KernelContact& c, const Step& step) {
 
 /// What one row, a particle, adds up over its nodes.
 struct RowSum {
-  double energy = 0;
   Vec3 force = Vec3::Zero();
   Index active = 0;
   RowSum operator+(const RowSum& other) const {
-    return {energy + other.energy, force + other.force, active + other.active};
+    return {force + other.force, active + other.active};
   }
 };
 
@@ -133,11 +132,10 @@ RowSum push_particle(Scene& scene, KernelContact& c, Index row, const Vec3& move
     c.pair_force[at(e)] = VV * c.law.force_by_distance(distance) * r;
     c.pair_stiffness[at(e)] = VV * c.law.stiffness_at(distance);
     stiffness += c.pair_stiffness[at(e)];
-    sum.energy += VV * c.law.potential(distance);
     sum.force += c.pair_force[at(e)];
+    sum.active = 1;
   }
   c.particle_stiffness[at(row)] = stiffness;
-  sum.active = sum.energy > 0 ? 1 : 0;
   add_xyz(f, sum.force);
   return sum;
 }
@@ -157,6 +155,26 @@ void push_nodes(Scene& scene, KernelContact& c) {
       c.node_stiffness[at(j)] = stiffness;
     }
   });
+}
+
+/// Work of the forces of this level on particles and nodes along the paths that they count on [J].
+Work work_of_pairs(const Scene& scene, KernelContact& c, const Step& step) {
+  for (std::size_t j = 0; j < c.surface.node.size(); ++j) {
+    c.node_path[j] = work_path(scene.nodes, c.surface.node[j], step);
+  }
+  return parallel_sum(
+      c.candidates.n_rows(), row_chunk, Work(Work::Zero()), [&](Index begin, Index end) {
+        Work work = Work::Zero();
+        for (Index row = begin; row < end; ++row) {
+          const WorkPath path =
+              work_path(scene.nodes, scene.particles.begin + c.candidates.point[row], step);
+          for (Index e = c.candidates.begin[row]; e < c.candidates.begin[row + 1]; ++e) {
+            const WorkPath& of_node = c.node_path[at(c.candidates.segment[e])];
+            work += work_along(path - of_node, c.pair_force[at(e)]);
+          }
+        }
+        return work;
+      });
 }
 
 ContactRate rate_of(const Scene& scene, const KernelContact& c) {
@@ -216,6 +234,7 @@ KernelContact& make_kernel_contact(Scene& scene, const std::string& name, int pa
   c.surface = make_surface(part.kind == "solid" ? outer_faces(part).faces : part);
   for (Index j = 0; j < c.surface.n_nodes(); ++j) c.points.push_back({j, j, j, j});
   c.node_stiffness.resize(c.surface.node.size());
+  c.node_path.resize(c.surface.node.size());
   track(scene, c);
   scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
   scene.after_restart.push_back([&scene, &c] {
@@ -272,7 +291,6 @@ void apply_kernel_contact(Scene& scene, KernelContact& c) {
         return part;
       });
   push_nodes(scene, c);
-  c.energy = sum.energy;
   c.on_surface = -sum.force;
   c.active = sum.active;
   c.rate = rate_of(scene, c);
@@ -293,10 +311,13 @@ void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& le
                   .stable_dt = [&c] { return contact_step(c.rate.omega2, 0); },
                   .limited_by = [&scene, &c] { return who_limits(scene, c); }});
   LedgerEntry& entry = ledger.entry("contact", c.name);
-  model.plan.add({.name = "contact " + c.name + ": energy",
+  model.plan.add({.name = "contact " + c.name + ": work",
                   .reason = asked_for_at(c.where),
                   .stage = Stage::look,
-                  .run = [&c, &entry](const Step&) { entry.value = c.energy; }});
+                  .reads = {"v", "f"},
+                  .run = [&scene, &c, &entry](const Step& step) {
+                    entry.add_work(-work_of_pairs(scene, c, step));
+                  }});
 }
 
 }  // namespace gannet

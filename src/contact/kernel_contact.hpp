@@ -51,9 +51,9 @@ struct KernelContact {
   std::vector<double> pair_stiffness;      ///< [N/m]
   std::vector<double> particle_stiffness;  ///< sum over the pairs of each row [N/m]
   std::vector<double> node_stiffness;      ///< likewise of each node [N/m]
-  double energy = 0;                       ///< at this level [J]
-  Vec3 on_surface = Vec3::Zero();          ///< sum of the forces on the nodes [N]
-  Index active = 0;                        ///< particles that are pushed
+  std::vector<WorkPath> node_path;
+  Vec3 on_surface = Vec3::Zero();  ///< sum of the forces on the nodes [N]
+  Index active = 0;                ///< particles that are pushed
   ContactRate rate;
 };
 
@@ -78,14 +78,16 @@ void take_volumes(KernelContact& contact, const Nodes& nodes, double thickness);
 void search(Scene& scene, KernelContact& contact, const Step& step);
 
 /// Forces of all pairs at this level, added to nodes.f: to particles row by row, to nodes in the
-/// order of their pairs, the opposite. Sets energy, force on the surface and the rate of the
-/// contact: with k_ij the bound of a pair's stiffness, Gershgorin's row of i is 2 sum_j k_ij, so
+/// order of their pairs, the opposite. Sets the force on the surface and the rate of the contact:
+/// with k_ij the bound of a pair's stiffness, Gershgorin's row of i is 2 sum_j k_ij, so
 ///   omega^2 <= max(max_i 2/m_i sum_j k_ij, max_j 2/m_j sum_i k_ij)
 /// and nodes that follow one leader count together, as in largest_rate().
 void apply_kernel_contact(Scene& scene, KernelContact& contact);
 
 /// Adds the operations of the contact to a model that holds both sides, and its entry to the
-/// ledger: `contact`, the energy of the pairs in closed form.
+/// ledger: `contact`, minus the work of the pairs along work_path(). It is the energy of the pairs
+/// as long as particles move with their own velocities and no node loses its volume; where XSPH or
+/// shifting moves them aside, or an element leaves, only the work is what the motion has paid.
 void add_kernel_contact(Scene& scene, KernelContact& contact, Model& model, Ledger& ledger);
 
 }  // namespace gannet
