@@ -119,6 +119,21 @@ bool fine_enough(const Keys& keys, const Scene& scene, const KernelContact& c, d
   return false;
 }
 
+/// The nodes are those of the outer faces of solids at the start, and nothing tells which of them
+/// are bare once elements leave. Parts of solids that may do so count them.
+bool stays_whole(const Keys& keys, const Scene& scene, const KernelContact& c) {
+  const std::string& part = scene.parts[static_cast<std::size_t>(c.surface_part)].name;
+  const auto counts = [&](const Measure& m) { return m.name == "solid." + part + ".eroded"; };
+  if (std::none_of(scene.measures.begin(), scene.measures.end(), counts)) return true;
+  keys.complain(
+      "between",
+      fmt::format("elements of '{}' may leave (failure of its material, or collapse: erode), and "
+                  "kernel contact would go on pushing at the nodes of its faces of the start: take "
+                  "neither, or shells",
+                  part));
+  return false;
+}
+
 void set_law(const Keys& keys, Scene& scene, KernelContact& c, const ParticleMaterial& water) {
   const auto data = entry_of(scene.store.get<SurfaceData>().of_part, c.surface_part);
   const Part& part = scene.parts[static_cast<std::size_t>(c.surface_part)];
@@ -137,7 +152,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   for (KernelContact& c : scene.store.get<KernelContacts>().list) {
     const Keys keys = root.map("contacts").map(c.name);
     const auto water = entry_of(scene.store.get<ParticleMaterials>().of_part, c.particle_part);
-    if (!fine_enough(keys, scene, c, water.spacing)) continue;
+    if (!fine_enough(keys, scene, c, water.spacing) || !stays_whole(keys, scene, c)) continue;
     set_law(keys, scene, c, water);
     Model& model = models.of_node(scene.particles.begin);
     const Model& of_surface = model_of_part(scene, models, c.surface_part);
