@@ -64,6 +64,13 @@ void finish_list(KernelContact& c) {
   c.particle_stiffness.resize(at(c.candidates.n_rows()));
 }
 
+/// Puts the places of particles and nodes where the list is made from.
+void take_places(const Scene& scene, KernelContact& c) {
+  const auto x = particles_of(scene, scene.nodes.x);
+  std::copy(x.begin(), x.end(), c.x_search.begin());
+  std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
+}
+
 /// The list from the positions in x_search and node_x_search.
 void make_list(const Scene& scene, KernelContact& c) {
   SegmentSearch what{.points = owned(scene, c.x_search),
@@ -72,7 +79,7 @@ void make_list(const Scene& scene, KernelContact& c) {
                      .corner_points = c.node_x_search,
                      .segments = c.points,
                      .periods = *c.periods};
-  what.reach = c.law.kernel.reach() + c.search_numbers[0];
+  what.reach = c.law.kernel.reach() + std::max(0.0, c.search_numbers[0]);
   find_candidates(what, c.candidates);
   finish_list(c);
 }
@@ -205,12 +212,15 @@ void track(Scene& scene, KernelContact& c) {
   const auto none = GhostRule::none;
   c.x_search.resize(at(scene.particles.size()));
   c.node_x_search.resize(c.surface.node.size());
-  c.search_numbers = {-1};
+  c.search_numbers = {-1, 0, 0};
   track_contact(scene, c.name,
                 {line_field("x_search", "m", "", Over::particles, c.x_search, 0, 3, none),
                  line_field("node_x_search", "m", "", Over::scene, c.node_x_search, 0, 3, none),
                  plain_field("search_numbers", "", "", Over::scene, c.search_numbers, 1, none)},
-                {.force = [&c] { return c.on_surface; }, .active = [&c] { return at(c.active); }});
+                {.force = [&c] { return c.on_surface; },
+                 .active = [&c] { return at(c.active); },
+                 .numbers = &c.search_numbers,
+                 .overlaps = 1});
 }
 
 std::string who_limits(const Scene& scene, const KernelContact& c) {
@@ -263,6 +273,13 @@ void take_volumes(KernelContact& c, const Nodes& nodes, double thickness) {
   }
 }
 
+void list_pairs_of_now(Scene& scene, KernelContact& c) {
+  update_surface(scene.nodes, c.surface);
+  add_up_volumes(c);
+  take_places(scene, c);
+  make_list(scene, c);
+}
+
 void search(Scene& scene, KernelContact& c, const Step& step) {
   update_surface(scene.nodes, c.surface);
   add_up_volumes(c);
@@ -275,8 +292,7 @@ void search(Scene& scene, KernelContact& c, const Step& step) {
                                                c.node_x_search, *c.periods);
     if (moved <= c.search_numbers[0]) return;
   }
-  std::copy(x.begin(), x.end(), c.x_search.begin());
-  std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
+  take_places(scene, c);
   c.search_numbers[0] = skin_of(scene, c, step);
   make_list(scene, c);
 }

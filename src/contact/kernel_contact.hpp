@@ -39,7 +39,7 @@ struct KernelContact {
   // Tracked
   Array<Line> x_search;          ///< over particles: positions when the list was made [m]
   Array<Line> node_x_search;     ///< nodes when the list was made [m]
-  Array<double> search_numbers;  ///< {skin [m]; negative: no list yet}
+  Array<double> search_numbers;  ///< {skin [m] (negative: no list yet), overlaps, largest [m]}
 
   // Made anew
   std::vector<Corners> points;    ///< each node as a segment of its own, for the search
@@ -64,7 +64,8 @@ struct KernelContacts {
 
 /// Makes a contact between the particles of one part and the nodes of the surface of another, the
 /// outer faces of solids: allocates its state, tracks its fields, registers its list, its measures
-/// ("contact.NAME.force" on the surface, "contact.NAME.active") and its rebuild after a restart.
+/// ("contact.NAME.force" on the surface, "contact.NAME.active", "contact.NAME.overlaps",
+/// "contact.NAME.overlap_depth") and its rebuild after a restart.
 KernelContact& make_kernel_contact(Scene& scene, const std::string& name, int particle_part,
                                    int surface_part);
 
@@ -73,6 +74,10 @@ double longest_edge(const Nodes& nodes, const Surface& surface);
 
 /// Gives the segments their shares of volume from the nodes' places now.
 void take_volumes(KernelContact& contact, const Nodes& nodes, double thickness);
+
+/// The pairs within reach at the places of now, without skin, and the volumes of the nodes; what
+/// search() goes by stays as it is.
+void list_pairs_of_now(Scene& scene, KernelContact& contact);
 
 /// Makes sure that the list is complete for this level.
 void search(Scene& scene, KernelContact& contact, const Step& step);

@@ -11,6 +11,7 @@
 
 #include "contact/effects.hpp"
 #include "contact/kernel_contact.hpp"
+#include "contact/kernel_start.hpp"
 #include "contact/part_kinds.hpp"
 #include "plan/model_of_part.hpp"
 #include "scene/particle_material.hpp"
@@ -147,6 +148,17 @@ void set_law(const Keys& keys, Scene& scene, KernelContact& c, const ParticleMat
             standard_K(c.law, water.spacing, c.thickness, water.rho0, water.c0);
 }
 
+/// A fill that begins at the nodes, as it may at a wall, is shot off by their potential.
+void warn_of_start(const Keys& keys, Scene& scene, const KernelStart& start, double dp, double c0) {
+  if (start.count == 0) return;
+  scene.warnings.push_back(fmt::format(
+      "{}: {}: {} particles start within reach of the nodes, the nearest {:.4g} m too near: its "
+      "potential is worth {:.3g} m/s ({:.2g} c0) and throws it off at t = 0. Let the first row "
+      "stand {:.4g} m ({:.2f} spacings) off the nodes: begin the fill half a spacing less off them",
+      keys.where().text(), keys.path(), start.count, start.depth, start.speed, start.speed / c0,
+      start.stand_off, start.stand_off / dp));
+}
+
 void operations(const Keys& root, Scene& scene, Models& models) {
   if (!scene.store.has<KernelContacts>()) return;
   for (KernelContact& c : scene.store.get<KernelContacts>().list) {
@@ -163,6 +175,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                                         of_surface.name, model.name));
       continue;
     }
+    warn_of_start(keys, scene, look_at_start(scene, c, water.rho0, water.c0), water.spacing,
+                  water.c0);
     add_kernel_contact(scene, c, model, models.ledger);
   }
 }

@@ -30,6 +30,40 @@ double stiffness_near(const KernelLaw& law, double r) {
   return std::max(std::abs(second), std::abs(slope(law, at) / at));
 }
 
+/// The integral of f(r) over a plane at the height z, r the distance from its points, by the
+/// midpoint rule over rings (pairs of lines) of radius s.
+template <class F>
+double over_plane(const KernelLaw& law, double z, F&& f) {
+  constexpr int rings = 2000;
+  const double ds = law.kernel.reach() / rings;
+  double sum = 0;
+  for (int k = 0; k < rings; ++k) {
+    const double s = (k + 0.5) * ds;
+    const double dA = law.kernel.dimension == 3 ? 2 * std::numbers::pi * s * ds : 2 * ds;
+    sum += f(std::hypot(s, z)) * dA;
+  }
+  return sum;
+}
+
+/// The greatest height at which something holds: from the reach down in steps, then by halves; 0
+/// where it does not hold at any.
+template <class Holds>
+double highest(const KernelLaw& law, Holds&& holds) {
+  constexpr int steps = 64;
+  const double step = law.kernel.reach() / steps;
+  for (int k = steps - 1; k >= 0; --k) {
+    double low = k * step;
+    if (!holds(low)) continue;
+    double high = low + step;
+    for (int n = 0; n < 30; ++n) {
+      const double middle = 0.5 * (low + high);
+      (holds(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  return 0;
+}
+
 }  // namespace
 
 double KernelLaw::potential(double r) const { return K * power(kernel.W(r) / W_dp, n); }
@@ -60,16 +94,20 @@ KernelLaw make_kernel_law(const SmoothingKernel& kernel, double dp, int n) {
 }
 
 double force_of_plane(const KernelLaw& law, double V, double t, double z) {
-  // By the midpoint rule over rings (pairs of lines) of radius s: the component along z is s(r) z.
-  constexpr int rings = 2000;
-  const double ds = law.kernel.reach() / rings;
-  double sum = 0;
-  for (int k = 0; k < rings; ++k) {
-    const double s = (k + 0.5) * ds;
-    const double dA = law.kernel.dimension == 3 ? 2 * std::numbers::pi * s * ds : 2 * ds;
-    sum += law.force_by_distance(std::hypot(s, z)) * z * dA;
-  }
-  return V * t * sum;
+  // The component along z is s(r) z.
+  return V * t * z * over_plane(law, z, [&](double r) { return law.force_by_distance(r); });
+}
+
+double energy_of_plane(const KernelLaw& law, double V, double t, double z) {
+  return V * t * over_plane(law, z, [&](double r) { return law.potential(r); });
+}
+
+double height_of_force(const KernelLaw& law, double V, double t, double force) {
+  return highest(law, [&](double z) { return force_of_plane(law, V, t, z) >= force; });
+}
+
+double height_of_energy(const KernelLaw& law, double V, double t, double energy) {
+  return highest(law, [&](double z) { return energy_of_plane(law, V, t, z) >= energy; });
 }
 
 double standard_K(const KernelLaw& law, double dp, double t, double rho0, double c0) {

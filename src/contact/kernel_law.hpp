@@ -44,6 +44,17 @@ KernelLaw make_kernel_law(const SmoothingKernel& kernel, double dp, int n);
 /// in the plane per unit of depth. V: [m^dimension]; t, z: [m]. Needs z >= 0.
 double force_of_plane(const KernelLaw& law, double V, double t, double z);
 
+/// Energy of a particle there, V t int phi dA; falls with z. Units and needs as above. [J]
+double energy_of_plane(const KernelLaw& law, double V, double t, double z);
+
+/// The greatest height above such a plane at which its force is as large as `force` [m]; 0 where it
+/// never is. force: [N], above 0 (in the plane per unit of depth).
+double height_of_force(const KernelLaw& law, double V, double t, double force);
+
+/// The height above such a plane at which a particle has that energy [m], 0 where it has none as
+/// large. energy: above 0, as of energy_of_plane().
+double height_of_energy(const KernelLaw& law, double V, double t, double energy);
+
 /// The K with which such a plane holds a particle at half a spacing with the force that penalty
 /// contact has at the surface itself, its largest: 1/2 rho0 c0^2 dp^2 (dp in the plane case).
 double standard_K(const KernelLaw& law, double dp, double t, double rho0, double c0);

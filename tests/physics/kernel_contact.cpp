@@ -235,3 +235,52 @@ output: {until: 1 s, checkpoint: never}
   CHECK(left > 5);
   CHECK(worst < 5e-5);
 }
+
+namespace {
+
+/// A tank of water on a plate, its lowest row of particles that far above the nodes.
+std::string on_plate(const std::string& height) {
+  return R"case(gannet: 1
+dimension: 2
+let: {dx: 5 mm, z: )case" +
+         height + R"case(}
+materials: {water: {density: 1000, c0: 40 m/s}}
+parts:
+  block:
+    sph: {material: water, spacing: dx}
+    fill: {box: {from: [-50 mm, "z - dx/2", 0], to: [50 mm, "z + 9.5*dx", 0]}}
+  plate: {rigid_surface: {}, shape: {line: {from: [-0.1, 0, 0], to: [0.1, 0, 0], elements: 40}}}
+contacts: {bed: {between: [block, plate], type: kernel}}
+output: {until: 1 s, checkpoint: never}
+)case";
+}
+
+}  // namespace
+
+TEST_CASE("kernel contact: water that starts within reach is told of", "[physics]") {
+  const auto flush = make_simulation_of_text(on_plate("dx/2"));
+  const auto warned = [](const Simulation& s) {
+    return std::count_if(s.scene.warnings.begin(), s.scene.warnings.end(), [](const auto& w) {
+      return w.find("contacts.bed: ") != std::string::npos;
+    });
+  };
+  CHECK(warned(*flush) == 1);
+  for (const std::string& w : flush->scene.warnings) fmt::print("{}\n", w);
+  CHECK(measured(flush->scene, "contact.bed.overlaps") == 40);  // two rows of 20
+  CHECK(measured(flush->scene, "contact.bed.overlap_depth") == Approx(1.3 * 5e-3).epsilon(0.05));
+  double fastest = 0;
+  run_until(*flush, 2e-3, [&] {
+    for (const Line& v : flush->scene.nodes.v) fastest = std::max(fastest, xyz(v).norm());
+  });
+  fmt::print("flush: the fastest particle reaches {:.3g} m/s\n", fastest);
+  CHECK(fastest > 10);  // this is what it is told of
+  const auto off = make_simulation_of_text(on_plate("1.8*dx"));
+  CHECK(warned(*off) == 0);
+  CHECK(measured(off->scene, "contact.bed.overlaps") == 0);
+  fastest = 0;
+  run_until(*off, 2e-3, [&] {
+    for (const Line& v : off->scene.nodes.v) fastest = std::max(fastest, xyz(v).norm());
+  });
+  fmt::print("1.8 dx off: {:.3g} m/s\n", fastest);
+  CHECK(fastest < 2);
+}

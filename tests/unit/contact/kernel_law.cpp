@@ -131,6 +131,35 @@ TEST_CASE("kernel contact: a lattice of nodes pushes as the plane that it stands
   }
 }
 
+TEST_CASE("kernel contact: energy and heights over a plane", "[contact]") {
+  for (const int dimension : {2, 3}) {
+    for (const int n : {1, 2, 4}) {
+      KernelLaw law = law_of(KernelType::cubic_spline, dimension, 1.3 * dp, dp, n);
+      const double V = std::pow(dp, dimension);
+      const double c0 = 30;
+      const double unit = 1000 * c0 * c0 * V / dp;
+      law.K = standard_K(law, dp, dp, 1000, c0);
+      for (const double z : {0.3 * dp, dp, 1.7 * dp}) {
+        const double d = 1e-4 * dp;
+        const double slope =
+            (energy_of_plane(law, V, dp, z + d) - energy_of_plane(law, V, dp, z - d)) / (2 * d);
+        CHECK(force_of_plane(law, V, dp, z) == Approx(-slope).epsilon(1e-4));
+        CHECK(height_of_energy(law, V, dp, energy_of_plane(law, V, dp, z)) == Approx(z));
+      }
+      const double z = height_of_force(law, V, dp, 0.01 * unit);
+      CHECK(force_of_plane(law, V, dp, z) == Approx(0.01 * unit));
+      const double v = std::sqrt(2 * energy_of_plane(law, V, dp, 0.5 * dp) / (1000 * V)) / c0;
+      const double v0 = std::sqrt(2 * energy_of_plane(law, V, dp, 0) / (1000 * V)) / c0;
+      fmt::print(
+          "{}D, n = {}: 1 % of rho0 c0^2 at {:.3f} dp; stops {:.3f} c0 before dp/2, {:.3f} "
+          "c0 before the nodes\n",
+          dimension, n, z / dp, v, v0);
+      if (n == 2) CHECK(z == Approx(1.8 * dp).epsilon(0.02));
+      CHECK(height_of_energy(law, V, dp, 2 * energy_of_plane(law, V, dp, 0)) == 0);
+    }
+  }
+}
+
 TEST_CASE("kernel contact: its standard stiffness holds what a penalty holds", "[contact]") {
   for (const int dimension : {2, 3}) {
     KernelLaw law = law_of(KernelType::quintic_spline, dimension, 1.1 * dp, dp, 2);
