@@ -1,6 +1,6 @@
-// Logarithm and exponential of eight doubles, for files named *.isa.cpp only. No table, no library:
-// the same bits on every machine that has the instruction set. The relative error of both
-// is 1.7e-16 at most (tests/unit/base/simd_math.cpp).
+// Logarithm and exponential of the doubles of a vector, for files named *.isa.cpp only. No table,
+// no library: the same bits on every machine that has the instruction set. The relative error of
+// both is 1.7e-16 at most (tests/unit/base/simd_math.cpp).
 #pragma once
 
 #include "base/simd.hpp"

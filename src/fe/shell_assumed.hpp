@@ -35,7 +35,7 @@
 
 namespace gannet::GANNET_ISA_NS {
 
-/// Frame of eight elements with N corners, and the corners in it.
+/// Frame of the elements of a vector, with N corners, and the corners in it.
 template <int N>
 struct FlatGeometry {
   VecX3 e1, e2, e3;

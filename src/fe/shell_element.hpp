@@ -43,7 +43,7 @@
 
 namespace gannet::GANNET_ISA_NS {
 
-/// Frame, gradients and hourglass geometry of eight elements.
+/// Frame, gradients and hourglass geometry of the elements of a vector.
 struct ShellGeometry {
   VecX3 e1, e2, e3;
   Vec area;
@@ -52,7 +52,7 @@ struct ShellGeometry {
   Vec X, Y, Z;             ///< see the top
 };
 
-/// Geometry of eight elements from their corners [m]. Needs diagonals that cross.
+/// Geometry of the elements of a vector from their corners [m]. Needs diagonals that cross.
 GANNET_INLINE ShellGeometry shell_geometry(const VecX3 x[4]) {
   ShellGeometry g;
   const VecX3 r31 = x[2] - x[0];
@@ -280,7 +280,7 @@ GANNET_INLINE void shell_shear(const ShellConstants& c, double* q, const ShellIn
   work += Vec(0.5) * W * ((xz + new_xz) * d.xz + (yz + new_yz) * d.yz);
 }
 
-/// Stiffness of the hourglass modes of eight elements.
+/// Stiffness of the hourglass modes of the elements of a vector.
 struct HourglassStiffness {
   Vec membrane;  ///< [N/m]
   Vec warp;      ///< [N/m]

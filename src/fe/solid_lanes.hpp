@@ -72,7 +72,7 @@ GANNET_INLINE void forget_collapsed(const SolidLayout& layout, Mask alive, doubl
   }
 }
 
-/// Eight elements on their way from n-1 to n: what all formulations start from.
+/// The elements of a vector on their way from n-1 to n: what all formulations start from.
 struct SolidMotion {
   SolidModes x;       ///< of the positions at n
   SolidModes x_half;  ///< halfway to them
