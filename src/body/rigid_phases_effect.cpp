@@ -80,6 +80,10 @@ std::vector<int> parts_of(const Keys& root, const Keys& keys, const Scene& scene
   for (const std::string& name : keys.words("parts")) {
     const int number = scene.part_number(name);
     const Part* part = number < 0 ? nullptr : &scene.parts[static_cast<std::size_t>(number)];
+    if (number >= 0 && std::ranges::find(parts, number) != parts.end()) {
+      keys.complain("parts", fmt::format("'{}' is named twice", name));
+      return {};
+    }
     const bool good = part != nullptr && (part->kind == "shell" || part->kind == "solid");
     const bool taken = std::ranges::any_of(scene.groups, [&](const PartGroup& group) {
       return std::ranges::find(group.parts, number) != group.parts.end();
