@@ -38,7 +38,7 @@ struct RigidPhase {
   Location where;
   std::vector<Index> nodes;  ///< all of them, rising
   RigidTimes times;
-  std::vector<std::string> contacts;  ///< names of contacts of these parts
+  std::vector<std::string> contacts;  ///< names of contacts with what is not of these parts
 
   // Tracked
   Array<double> phase;    ///< 0 rigid, 1 deformable, 2 rigid again

@@ -126,16 +126,20 @@ void state(const Keys& root, Scene& scene) {
   }
 }
 
-/// The contacts that one of its parts takes part in.
+/// The contacts of its parts with what is not of the body: two parts of it may lie against each
+/// other all along.
 std::vector<std::string> contacts_of(const Keys& root, const Keys& body) {
   std::vector<std::string> names;
   if (!root.has("contacts")) return names;
+  const std::vector<std::string>& parts = body.words("parts");
+  const auto mine = [&](const std::string& side) {
+    return std::ranges::find(parts, side) != parts.end();
+  };
   for (const std::string& name : root.map("contacts").names()) {
     const std::vector<std::string>& sides = root.map("contacts").map(name).words("between");
-    const bool meant = std::ranges::any_of(sides, [&](const std::string& side) {
-      return std::ranges::find(body.words("parts"), side) != body.words("parts").end();
-    });
-    if (meant) names.push_back(name);
+    if (std::ranges::any_of(sides, mine) && !std::ranges::all_of(sides, mine)) {
+      names.push_back(name);
+    }
   }
   return names;
 }
@@ -199,7 +203,8 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     }
     phase.contacts = contacts_of(root, keys);
     if (phase.times.until_contact && phase.contacts.empty()) {
-      keys.complain("rigid", "until_contact, but no contact names one of its parts");
+      keys.complain("rigid",
+                    "until_contact, but no contact is between a part of it and what is not");
       continue;
     }
     start(keys, scene, phase);

@@ -39,20 +39,30 @@ Vec3 angular(Scene& scene) {
   return sum;
 }
 
-/// Two blocks of gum that meet at 10 m/s in free flight, the first of them rigid until then.
-const std::string meeting = R"case(gannet: 1
-materials: {gum: {density: 1100, young: 20 MPa, poisson: 0.4}}
+/// Blocks of gum that meet at 10 m/s in free flight, the upper one rigid at first. It has a lid
+/// that lies on it from the start.
+std::string meeting(const std::string& rigid, bool lid = false) {
+  return fmt::format(
+      R"case(gannet: 1
+materials: {{gum: {{density: 1100, young: 20 MPa, poisson: 0.4}}}}
 parts:
   low:
-    solid: {material: gum}
-    shape: {block: {from: [0, 0, 0], to: [0.2, 0.2, 0.05], elements: [8, 8, 2]}}
+    solid: {{material: gum}}
+    shape: {{block: {{from: [0, 0, 0], to: [0.2, 0.2, 0.05], elements: [8, 8, 2]}}}}
   high:
-    solid: {material: gum}
-    shape: {block: {from: [0.03, 0.02, 0.06], to: [0.15, 0.14, 0.12], elements: [6, 6, 3]}}
-bodies: {high: {parts: high, velocity: [0, 0, -10], angular_velocity: [3, 5, 40], rigid: until_contact}}
-contacts: {hit: {between: [low, high]}}
-output: {until: 1 s, checkpoint: never}
-)case";
+    solid: {{material: gum}}
+    shape: {{block: {{from: [0.03, 0.02, 0.06], to: [0.15, 0.14, 0.12], elements: [6, 6, 3]}}}}
+{}bodies: {{high: {{parts: {}, velocity: [0, 0, -10], angular_velocity: [3, 5, 40], rigid: {}}}}}
+contacts:
+  hit: {{between: [low, high]}}
+{}output: {{until: 1 s, checkpoint: never}}
+)case",
+      lid ? "  lid:\n    solid: {material: gum}\n    shape: {block: {from: [0.04, 0.04, "
+            "0.122], to: [0.14, 0.13, 0.14], elements: [4, 4, 1]}}\n"
+          : "",
+      lid ? "[high, lid]" : "high", rigid,
+      lid ? "  seam: {between: [high, lid], thickness: 3 mm}\n" : "");
+}
 
 }  // namespace
 
@@ -102,7 +112,7 @@ TEST_CASE("rigid for a time: free flight keeps momenta and energy over switches"
 }
 
 TEST_CASE("rigid for a time: a block deforms once it is touched", "[physics]") {
-  const auto s = make_simulation_of_text(meeting);
+  const auto s = make_simulation_of_text(meeting("until_contact"));
   advance(s->models);
   const Vec3 p0 = linear_momentum(s->scene).sum;
   const Vec3 L0 = angular(s->scene);
@@ -139,4 +149,23 @@ TEST_CASE("rigid for a time: a block deforms once it is touched", "[physics]") {
   CHECK(worst_p < 1e-12);
   CHECK(worst_L < 1e-9);
   CHECK(energy_error(*s) < 0.01);
+}
+
+TEST_CASE("rigid for a time: contact of its parts with each other sets nothing free", "[physics]") {
+  const auto s = make_simulation_of_text(meeting("until_contact", true));
+  advance(s->models);
+  double leaning = 0;  // longest time with contact of its parts, while nothing else touches them
+  double touched = -1;
+  double released = -1;
+  run_until(*s, 2e-3, [&] {
+    if (touched < 0 && measured(s->scene, "contact.hit.active") > 0) touched = time_of(*s);
+    if (released < 0 && measured(s->scene, "body.high.rigid") == 0) released = time_of(*s);
+    if (touched < 0 && measured(s->scene, "contact.seam.active") > 0) leaning = time_of(*s);
+  });
+  fmt::print(
+      "lid: leans on the block up to {:.4g} ms, touched at {:.4g} ms, released at {:.4g} ms\n",
+      1e3 * leaning, 1e3 * touched, 1e3 * released);
+  CHECK(leaning > 0.5e-3);
+  CHECK(touched > leaning);
+  CHECK(released == touched);
 }
