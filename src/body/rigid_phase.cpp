@@ -132,16 +132,19 @@ bool touched(const Scene& scene, const RigidPhase& p) {
   });
 }
 
+/// Touch sets nothing free once they would be rigid again.
+bool ends(const Scene& scene, const RigidPhase& p, double t) {
+  if (t >= p.times.until) return true;
+  return p.times.until_contact && t < p.times.again_from && touched(scene, p);
+}
+
 void after_kick(Scene& scene, RigidPhase& p, const Step& step) {
   Nodes& nodes = scene.nodes;
   const double dt = 0.5 * (step.dt_old + step.dt);
   std::ranges::fill(p.force, Vec3::Zero());
   std::ranges::fill(p.couple, Vec3::Zero());
   p.switched = false;
-  if (p.phase[0] == 0 &&
-      (step.t >= p.times.until || (p.times.until_contact && touched(scene, p)))) {
-    return release(p, nodes, dt);
-  }
+  if (p.phase[0] == 0 && ends(scene, p, step.t)) return release(p, nodes, dt);
   if (p.phase[0] == 1 && step.t >= p.times.again_from) {
     p.phase[0] = 2;
     p.switched = true;

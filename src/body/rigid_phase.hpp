@@ -28,8 +28,8 @@ namespace gannet {
 
 /// When parts are rigid.
 struct RigidTimes {
-  double until = std::numeric_limits<double>::infinity();       ///< [s]
-  bool until_contact = false;                                   ///< or when something touches them
+  double until = std::numeric_limits<double>::infinity();  ///< [s]
+  bool until_contact = false;  ///< or when something touches them, before `again_from`
   double again_from = std::numeric_limits<double>::infinity();  ///< [s]; not before their release
 };
 

@@ -169,3 +169,25 @@ TEST_CASE("rigid for a time: contact of its parts with each other sets nothing f
   CHECK(touched > leaning);
   CHECK(released == touched);
 }
+
+TEST_CASE("rigid for a time: touch after the time of the second phase sets nothing free",
+          "[physics]") {
+  const auto s = make_simulation_of_text(meeting("{until_contact: yes, again_from: 0.5 ms}"));
+  advance(s->models);
+  double touched = -1;
+  bool rigid = true;
+  double strained = 0;
+  run_until(*s, 2e-3, [&] {
+    if (touched < 0 && measured(s->scene, "contact.hit.active") > 0) touched = time_of(*s);
+    rigid = rigid && measured(s->scene, "body.high.rigid") == 1;
+    for (const LedgerEntry& e : s->models.ledger.entries()) {
+      if (e.name == "internal" && e.part == "high")
+        strained = std::max(strained, std::abs(e.value));
+    }
+  });
+  fmt::print("late touch: at {:.4g} ms, internal energy {:.1e} J of {:.3g} J\n", 1e3 * touched,
+             strained, ledger_sum(*s, "internal"));
+  CHECK(touched > 0.5e-3);
+  CHECK(rigid);
+  CHECK(strained < 1e-12 * ledger_sum(*s, "internal"));
+}
