@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "contact/outer_faces.hpp"
+#include "contact/particle_list.hpp"
 #include "contact/track_contact.hpp"
 #include "plan/effect.hpp"
 
@@ -19,14 +20,6 @@ namespace {
 constexpr Index row_chunk = 64;
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
-std::span<const Line> particles_of(const Scene& scene, const Array<Line>& lines) {
-  return {lines.data() + scene.particles.begin, at(scene.particles.size())};
-}
-
-std::span<const Line> owned(const Scene& scene, const Array<Line>& lines) {
-  return {lines.data(), at(scene.particles.size())};
-}
 
 double area_of(const Surface& surface, const Nodes& nodes, const Segment& g) {
   const auto x = [&](std::size_t k) { return xyz(nodes.x[at(surface.node[g.corner[k]])]); };
@@ -66,14 +59,14 @@ void finish_list(KernelContact& c) {
 
 /// Puts the places of particles and nodes where the list is made from.
 void take_places(const Scene& scene, KernelContact& c) {
-  const auto x = particles_of(scene, scene.nodes.x);
+  const auto x = particle_lines(scene, scene.nodes.x);
   std::copy(x.begin(), x.end(), c.x_search.begin());
   std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
 }
 
 /// The list from the positions in x_search and node_x_search.
 void make_list(const Scene& scene, KernelContact& c) {
-  SegmentSearch what{.points = owned(scene, c.x_search),
+  SegmentSearch what{.points = owned_lines(scene, c.x_search),
                      .group = {scene.particle_part.data(), at(scene.particles.size())},
                      .wanted_group = c.particle_part,
                      .corner_points = c.node_x_search,
@@ -84,27 +77,10 @@ void make_list(const Scene& scene, KernelContact& c) {
   finish_list(c);
 }
 
-/// A quarter of a spacing, up to a whole one where that is crossed within eight steps.
+/// The skin of a new list: a quarter of a spacing, up to a whole one.
 double skin_of(const Scene& scene, const KernelContact& c, const Step& step) {
-  const Vec3 v_surface =
-      c.surface.node.empty() ? Vec3(Vec3::Zero()) : xyz(scene.nodes.v[at(c.surface.node[0])]);
-  const auto v = particles_of(scene, scene.nodes.v);
-  const double v2 = parallel_reduce(
-      scene.particles.size(), node_chunk, 0.0,
-      [&](Index begin, Index end) {
-        double most = 0;
-        for (Index i = begin; i < end; ++i) {
-          most = std::max(most, (xyz(v[at(i)]) - v_surface).squaredNorm());
-        }
-        return most;
-      },
-      [](double a, double b) { return std::max(a, b); });
   const double dp = std::pow(c.V_particle, 1.0 / c.law.kernel.dimension);
-  double skin = std::clamp(8 * step.dt_old * std::sqrt(v2), 0.25 * dp, dp);
-  for (const double L : c.periods->length) {
-    if (L > 0) skin = std::min(skin, 0.25 * L);
-  }
-  return skin;
+  return list_skin(scene, c.surface, *c.periods, step.dt_old, {0.25 * dp, dp});
 }
 
 /// What one row, a particle, adds up over its nodes.
@@ -283,12 +259,12 @@ void list_pairs_of_now(Scene& scene, KernelContact& c) {
 void search(Scene& scene, KernelContact& c, const Step& step) {
   update_surface(scene.nodes, c.surface);
   add_up_volumes(c);
-  const auto x = particles_of(scene, scene.nodes.x);
+  const auto x = particle_lines(scene, scene.nodes.x);
   if (c.search_numbers[0] >= 0) {
     const Array<Index> before = c.candidates.point;
     order_rows(c.candidates);
     if (c.candidates.point != before) finish_list(c);
-    const double moved = relative_displacement(x, owned(scene, c.x_search), c.surface.x,
+    const double moved = relative_displacement(x, owned_lines(scene, c.x_search), c.surface.x,
                                                c.node_x_search, *c.periods);
     if (moved <= c.search_numbers[0]) return;
   }

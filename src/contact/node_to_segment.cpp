@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "contact/linked_weight.hpp"
+#include "contact/particle_list.hpp"
 #include "contact/track_contact.hpp"
 #include "plan/effect.hpp"
 #include "plan/model_of_part.hpp"
@@ -15,15 +16,6 @@
 namespace gannet {
 
 namespace {
-
-std::span<const Line> particle_lines(const Scene& scene, const Array<Line>& lines) {
-  const auto begin = static_cast<std::size_t>(scene.particles.begin);
-  return {lines.data() + begin, static_cast<std::size_t>(scene.particles.size())};
-}
-
-std::span<const Line> owned(const Scene& scene, const Array<Line>& lines) {
-  return {lines.data(), static_cast<std::size_t>(scene.particles.size())};
-}
 
 ContactInput input_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
   return {&scene.nodes, scene.particles, &c.surface, &c.candidates,
@@ -43,7 +35,7 @@ void size_rows(NodeToSegment& c) {
 
 /// The list from the positions in x_search and node_x_search.
 void make_list(const Scene& scene, NodeToSegment& c) {
-  const SegmentSearch what{owned(scene, c.x_search),
+  const SegmentSearch what{owned_lines(scene, c.x_search),
                            scene.particle_part,
                            c.particle_part,
                            c.node_x_search,
@@ -57,28 +49,10 @@ void make_list(const Scene& scene, NodeToSegment& c) {
   size_rows(c);
 }
 
-/// The skin of a new list: a third of the contact distance, more where that would be crossed
-/// within eight steps.
+/// The skin of a new list: a third of the contact distance, up to three.
 double skin_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
-  const auto first = static_cast<std::size_t>(c.surface.node.empty() ? 0 : c.surface.node[0]);
-  const Vec3 v_surface = xyz(scene.nodes.v[first]);
-  const auto v = particle_lines(scene, scene.nodes.v);
-  const double v2 = parallel_reduce(
-      scene.particles.size(), node_chunk, 0.0,
-      [&](Index begin, Index end) {
-        double most = 0;
-        for (Index i = begin; i < end; ++i) {
-          most = std::max(most, (xyz(v[static_cast<std::size_t>(i)]) - v_surface).squaredNorm());
-        }
-        return most;
-      },
-      [](double a, double b) { return std::max(a, b); });
   const double d = c.range.contact;
-  double most = 3 * d;
-  for (const double L : c.periods->length) {
-    if (L > 0) most = std::min(most, 0.25 * L);  // else it is not known which image is meant
-  }
-  return std::min(std::clamp(8 * step.dt_old * std::sqrt(v2), 0.35 * d, 3 * d), most);
+  return list_skin(scene, c.surface, *c.periods, step.dt_old, {0.35 * d, 3 * d});
 }
 
 /// What particles remember when they are not near any segment: nothing.
@@ -226,7 +200,7 @@ bool search(Scene& scene, NodeToSegment& c, const Step& step) {
   const auto x = particle_lines(scene, scene.nodes.x);
   if (!first) {
     order_rows(c.candidates);
-    const double moved = relative_displacement(x, owned(scene, c.x_search), c.surface.x,
+    const double moved = relative_displacement(x, owned_lines(scene, c.x_search), c.surface.x,
                                                c.node_x_search, *c.periods);
     if (moved <= c.search_numbers[0]) return false;
   }
@@ -240,7 +214,7 @@ bool search(Scene& scene, NodeToSegment& c, const Step& step) {
 
 void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first) {
   const GapMemory memory{c.side, c.offset};
-  PointImages images{*c.periods, owned(scene, c.x_search)};
+  PointImages images{*c.periods, owned_lines(scene, c.x_search)};
   if (c.periods->any()) images.moved = mean_displacement(c.surface.x, c.node_x_search);
   const Overlaps overlaps = find_gaps(c.surface, c.candidates, particle_lines(scene, scene.nodes.x),
                                       c.range, first, memory, c.gaps, images);
