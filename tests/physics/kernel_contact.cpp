@@ -34,15 +34,6 @@ output: {{until: 1 s, checkpoint: never}}
             : "    initial_velocity: [2 m/s, 1 m/s, -20 m/s]\n");
 }
 
-Vec3 spin_of_nodes(const Scene& scene) {
-  Vec3 sum = Vec3::Zero();
-  for (Index i = scene.nodes.rotating.begin; i < scene.nodes.rotating.end; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    sum += scene.nodes.torque[k].w * xyz(scene.nodes.omega[k]);
-  }
-  return sum;
-}
-
 /// Water that falls at 2 m/s onto a fixed line of 1.28 m.
 struct Fall {
   double width = 0, height = 0;  ///< of the water [m]

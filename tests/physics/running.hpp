@@ -60,7 +60,7 @@ inline Total linear_momentum(const Scene& scene) {
   return p;
 }
 
-/// Of nodes without rotations, about the origin.
+/// About the origin, without what rotating nodes add (spin_of_nodes()).
 inline Total angular_momentum(const Scene& scene) {
   Total L;
   for (Index i = 0; i < scene.nodes.n_owned; ++i) {
@@ -71,6 +71,16 @@ inline Total angular_momentum(const Scene& scene) {
     L.scale += scene.nodes.x[k].w * x.norm() * v.norm();
   }
   return L;
+}
+
+/// Of nodes of shells, which have a rotary inertia of their own.
+inline Vec3 spin_of_nodes(const Scene& scene) {
+  Vec3 sum = Vec3::Zero();
+  for (Index i = scene.nodes.rotating.begin; i < scene.nodes.rotating.end; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    sum += scene.nodes.torque[k].w * xyz(scene.nodes.omega[k]);
+  }
+  return sum;
 }
 
 /// Calls f(x, v) for each particle, with its place among the particles.
