@@ -16,7 +16,8 @@ bool same_models(const CheckpointHead& head, const Models& models) {
 }
 
 bool is_state_of_another(const LedgerEntry& e, const Ledger& ledger) {
-  return e.name == "kinetic" && std::ranges::none_of(ledger.entries(), [&](const LedgerEntry& own) {
+  const bool state = e.name == "kinetic" || e.name == "rotary_inertia";
+  return state && std::ranges::none_of(ledger.entries(), [&](const LedgerEntry& own) {
            return own.name == e.name && own.part == e.part;
          });
 }
@@ -56,17 +57,25 @@ void shift_velocities(const CheckpointHead::ModelState& model, double dt, Nodes&
   }
 }
 
-/// Where the nodes of a link were a step before.
+/// Writes an entry of three numbers into a field of the link; one that has no such field goes
+/// without.
+void set_entry(Scene& scene, const std::string& field, std::size_t k, const Vec3& value) {
+  const auto found = std::ranges::find(scene.fields, field, &Field::name);
+  if (found == scene.fields.end()) return;
+  for (int d = 0; d < 3; ++d) {
+    *reinterpret_cast<double*>(found->at(static_cast<Index>(k), d)) = value[d];
+  }
+}
+
+/// Where the nodes of a link were a step before, and how far they have turned since.
 void begin_path(const Link& link, double dt, Scene& scene) {
-  const std::string name = "link." + link.name + ".x_level";
-  const auto field = std::ranges::find(scene.fields, name, &Field::name);
-  if (field == scene.fields.end()) return;
+  const Nodes& nodes = scene.nodes;
+  const std::string name = "link." + link.name;
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(link.nodes[k]);
-    const Vec3 x = xyz(scene.nodes.x[i]) - dt * xyz(scene.nodes.v[i]);
-    for (int d = 0; d < 3; ++d) {
-      *reinterpret_cast<double*>(field->at(static_cast<Index>(k), d)) = x[d];
-    }
+    set_entry(scene, name + ".x_level", k, xyz(nodes.x[i]) - dt * xyz(nodes.v[i]));
+    if (!nodes.rotating.contains(link.nodes[k])) continue;
+    set_entry(scene, name + ".turned", k, dt * xyz(nodes.omega[i]));
   }
 }
 

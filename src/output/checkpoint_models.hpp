@@ -11,8 +11,8 @@ namespace gannet {
 /// Whether the file's models are those of the case.
 bool same_models(const CheckpointHead& head, const Models& models);
 
-/// Whether an entry of the file holds a state (kinetic energy) under a name that the ledger of
-/// other models does not have: nothing would bring it up to date.
+/// Whether an entry of the file holds a state (kinetic energy, that of rotary inertia) under a name
+/// that the ledger of other models does not have: nothing would bring it up to date.
 bool is_state_of_another(const LedgerEntry& e, const Ledger& ledger);
 
 /// A field that only a link between models has: it is not in files of other divisions.

@@ -2,7 +2,9 @@
 // one model and in two.
 #include <fmt/format.h>
 
+#include "../support/temporary_folder.hpp"
 #include "fe/beam_inertia.hpp"
+#include "output/checkpoint.hpp"
 #include "running.hpp"
 
 using namespace gannet;
@@ -189,6 +191,22 @@ TEST_CASE("ties: beams across models keep energy and momenta as in one", "[physi
     CHECK(d.momentum < 1e-12);  // rounding
     CHECK(d.angular < 1e-12);
   }
+}
+
+TEST_CASE("ties: a checkpoint of one model goes on in two without a jolt", "[physics]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() + "/beams.h5";
+  const auto one = make_simulation_of_text(spinning_beams(""));
+  run_until(*one, 0.05, [] {});
+  write_checkpoint(path, one->scene, one->models, one->scene.store.get<RunRecord>());
+  const auto two = make_simulation_of_text(
+      spinning_beams("models: {slow: {parts: mast}, fast: {parts: arm}}\n"));
+  read_checkpoint(path, two->scene, two->models, two->scene.store.get<RunRecord>(), true);
+  const double E = one->models.ledger.held();
+  double most = 0;
+  run_until(*two, 0.1, [&] { most = std::max(most, std::abs(two->models.ledger.held() / E - 1)); });
+  fmt::print("one model goes on in two: energy {:.2g}\n", most);
+  CHECK(most < 5e-3);
 }
 
 TEST_CASE("ties: the force of a tie is what it carries, and it lets go where it is too large",
