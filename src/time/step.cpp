@@ -36,12 +36,21 @@ void run(std::span<Model* const> level, Stage stage) {
                   "look at the last frames near that place; refine, stiffen or damp there"});
 }
 
+/// Shares of a step below which a difference is rounding.
+constexpr double rounding_of_step = 1e-9;
+
 /// The smallest whole number of substeps in the time that is left. That time is a difference of
-/// times, with their rounding: what it adds to a whole number asks for no substep more. (Late in a
-/// run it would cut the last substep of every coarse step in two, which is a resonance.)
+/// times, with their rounding: what it adds to a whole number asks for no substep more.
 double substeps_for(double left, double allowed, double t) {
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(t) / allowed;
-  return std::ceil(left / allowed * (1 - 1e-9) - rounding);
+  return std::ceil(left / allowed * (1 - rounding_of_step) - rounding);
+}
+
+/// Whether the substeps that a model still has to do may be as long as the last one. Substeps that
+/// were found anew from the time left would gather its rounding: late in a run, with many of them,
+/// the last one of every coarse step would be cut in two, which is a resonance.
+bool may_go_on(const Model& model) {
+  return model.substeps_left > 0 && model.step.dt <= model.vote.dt * (1 + 2 * rounding_of_step);
 }
 
 void advance_time(std::span<Model* const> level) {
@@ -91,6 +100,7 @@ void choose_dt(std::span<Model* const> level) {
       model.target = slower.substeps_left == 1 ? slower.target : slower.step.t + slower.step.dt;
       model.substeps_left = 0;
     }
+    if (may_go_on(model)) continue;
     const double left = model.target - model.step.t;
     const double ratio = substeps_for(left, model.vote.dt, model.step.t);
     if (ratio > 1e9) no_step(model);

@@ -65,21 +65,44 @@ TEST_CASE("clock: levels coincide bit for bit over many odd ratios", "[time]") {
 }
 
 TEST_CASE("clock: the rounding of a late time asks for no substep more", "[time]") {
+  const int ratio = GENERATE(4, 1000);
   Models models;
   std::vector<std::string> log;
   double slow = 0.9;
-  double fast = 0.225;
+  double fast = slow / ratio;
   for (const char* name : {"a", "b"}) models.list.emplace_back().name = name;
   add_logged(models.list[0], &slow, &log);
   add_logged(models.list[1], &fast, &log);
-  for (const double start : {1e3, 2.1e3, 1e6, 1e9}) {
+  for (const double start : {1e3, 2.1e3, 7e4, 1e6, 1e9}) {
     for (Model& model : models.list) model.step.t = start;
     for (int k = 0; k < 10; ++k) {
       const auto before = models.list[1].step.n;
       advance(models);
-      CHECK(models.list[1].step.n - before == 4);
+      CHECK(models.list[1].step.n - before == ratio);
     }
   }
+}
+
+TEST_CASE("clock: a vote that falls between two levels cuts what is left", "[time]") {
+  Models models;
+  std::vector<std::string> log;
+  double slow = 1.0;
+  double fast = 0.25;
+  for (const char* name : {"a", "b"}) models.list.emplace_back().name = name;
+  add_logged(models.list[0], &slow, &log);
+  models.list[1].plan.add({.name = "force",
+                           .stage = Stage::force,
+                           .run =
+                               [&](const Step& s) {
+                                 if (s.t > 0.4) fast = 0.2;
+                                 if (s.t > 0.8) fast = 1;  // more is for the next level
+                               },
+                           .stable_dt = [&] { return fast; }});
+  advance(models);
+  // 0.25 twice, then ceil(0.5/0.2) = 3 equal ones.
+  CHECK(models.list[1].step.n == 5);
+  CHECK(models.list[1].step.dt_old == Approx(0.5 / 3).epsilon(1e-12));
+  CHECK(models.list[1].step.t == 1.0);
 }
 
 TEST_CASE("clock: a step that collapses to nothing stops the run and names who", "[time]") {
