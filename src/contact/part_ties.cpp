@@ -246,9 +246,9 @@ void warn_of_buffers(Scene& scene, Models& models, const PartTies& all) {
   }
   if (list.empty()) return;
   scene.warnings.push_back(fmt::format(
-      "ties: {}: energy may grow at that border. Make two or three rows of the slow part's "
-      "elements "
-      "a part of their own that advances in the fast model, tie it to the rest by its own nodes, "
+      "ties: {}: energy may grow at that border. Make three or four rows of the slow part's "
+      "elements a part of their own that advances in the fast model, tie it to the rest by its own "
+      "nodes, "
       "and tie the fine mesh to it",
       list));
 }

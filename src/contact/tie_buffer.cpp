@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "plan/model_of_part.hpp"
@@ -13,7 +14,7 @@ namespace gannet {
 namespace {
 
 constexpr double share_of_step = 0.7;
-constexpr int least_layers = 2;
+constexpr int least_layers = 3;
 
 /// Nodes of a part that a tie holds, on either side of it.
 std::vector<Index> nodes_at(const PartTie& tie, const Part& part) {
@@ -75,9 +76,9 @@ std::string missing_buffer(const Scene& scene, Models& models, const PartTie& ti
   if (layers >= least_layers) return "";
   return fmt::format(
       "'{}' ties '{}' of '{}' to '{}' of the slower '{}' with {} of elements of "
-      "its step in between",
+      "its step in between, where three are needed",
       tie.name, of_fast->name, fast->name, of_slow->name, slow->name,
-      layers == 0 ? "no layer" : "one layer");
+      std::array{"no layer", "one layer", "two layers"}[static_cast<std::size_t>(layers)]);
 }
 
 }  // namespace gannet
