@@ -150,6 +150,34 @@ GANNET_INLINE Vec8& operator+=(Vec8& a, Vec8 b) { return a = a + b; }
 GANNET_INLINE Vec8& operator-=(Vec8& a, Vec8 b) { return a = a - b; }
 GANNET_INLINE Vec8& operator*=(Vec8& a, Vec8 b) { return a = a * b; }
 
+/// Each lane gets the one below it, the first gets `first`.
+GANNET_INLINE Vec8 lanes_up(Vec8 a, double first) {
+#ifdef __AVX512F__
+  const __m512i v = _mm512_castpd_si512(a.v);
+  const __m512i f = _mm512_castpd_si512(_mm512_set1_pd(first));
+  return _mm512_castsi512_pd(_mm512_alignr_epi64(v, f, 7));
+#else
+  const __m256d turned_lo = _mm256_permute4x64_pd(a.lo, 0b10'01'00'11);
+  const __m256d turned_hi = _mm256_permute4x64_pd(a.hi, 0b10'01'00'11);
+  return {_mm256_blend_pd(turned_lo, _mm256_set1_pd(first), 1),
+          _mm256_blend_pd(turned_hi, turned_lo, 1)};
+#endif
+}
+
+/// Each lane gets the one above it, the last gets `last`.
+GANNET_INLINE Vec8 lanes_down(Vec8 a, double last) {
+#ifdef __AVX512F__
+  const __m512i v = _mm512_castpd_si512(a.v);
+  const __m512i l = _mm512_castpd_si512(_mm512_set1_pd(last));
+  return _mm512_castsi512_pd(_mm512_alignr_epi64(l, v, 1));
+#else
+  const __m256d turned_lo = _mm256_permute4x64_pd(a.lo, 0b00'11'10'01);
+  const __m256d turned_hi = _mm256_permute4x64_pd(a.hi, 0b00'11'10'01);
+  return {_mm256_blend_pd(turned_lo, turned_hi, 8),
+          _mm256_blend_pd(turned_hi, _mm256_set1_pd(last), 8)};
+#endif
+}
+
 /// Sum of the eight lanes, always added in the same order.
 GANNET_INLINE double sum(Vec8 a) {
   alignas(64) double t[8];
@@ -179,46 +207,71 @@ GANNET_INLINE void transpose_4x4(__m256d r0, __m256d r1, __m256d r2, __m256d r3,
   c3 = _mm256_permute2f128_pd(t1, t3, 0x31);
 }
 
+#ifdef __AVX512F__
+
+/// The lines at base + 4 low and base + 4 high, in the halves of a register.
+GANNET_INLINE __m512d two_lines(const double* base, std::int32_t low, std::int32_t high) {
+  const __m256d first = _mm256_load_pd(base + 4 * static_cast<std::int64_t>(low));
+  const __m256d second = _mm256_load_pd(base + 4 * static_cast<std::int64_t>(high));
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1);
+}
+
+#endif
+
 /// Gathers eight 32-byte lines (four doubles each) at base + 4 index[k]: out[c] holds component c
 /// of the eight lines. base: 32-byte aligned.
 GANNET_INLINE void gather_lines(const double* base, const std::int32_t* index, int index_stride,
                                 Vec8 out[4]) {
+#ifdef __AVX512F__
+  const auto pair = [&](int low, int high) {
+    return two_lines(base, index[low * index_stride], index[high * index_stride]);
+  };
+  // Lines are paired such that after the first round whole quarters have to be put in order.
+  const __m512d l02 = pair(0, 2), l13 = pair(1, 3), l46 = pair(4, 6), l57 = pair(5, 7);
+  const __m512d a = _mm512_unpacklo_pd(l02, l13);  // x0 x1 z0 z1 x2 x3 z2 z3
+  const __m512d b = _mm512_unpackhi_pd(l02, l13);  // y0 y1 w0 w1 y2 y3 w2 w3
+  const __m512d c = _mm512_unpacklo_pd(l46, l57);
+  const __m512d d = _mm512_unpackhi_pd(l46, l57);
+  out[0] = _mm512_shuffle_f64x2(a, c, 0b10'00'10'00);
+  out[1] = _mm512_shuffle_f64x2(b, d, 0b10'00'10'00);
+  out[2] = _mm512_shuffle_f64x2(a, c, 0b11'01'11'01);
+  out[3] = _mm512_shuffle_f64x2(b, d, 0b11'01'11'01);
+#else
   __m256d r[8];
   for (int k = 0; k < 8; ++k) {
     r[k] = _mm256_load_pd(base + 4 * static_cast<std::int64_t>(index[k * index_stride]));
   }
-  __m256d a[4];
-  __m256d b[4];
-  transpose_4x4(r[0], r[1], r[2], r[3], a[0], a[1], a[2], a[3]);
-  transpose_4x4(r[4], r[5], r[6], r[7], b[0], b[1], b[2], b[3]);
-  for (int c = 0; c < 4; ++c) {
-#ifdef __AVX512F__
-    out[c] = _mm512_insertf64x4(_mm512_castpd256_pd512(a[c]), b[c], 1);
-#else
-    out[c] = {a[c], b[c]};
+  transpose_4x4(r[0], r[1], r[2], r[3], out[0].lo, out[1].lo, out[2].lo, out[3].lo);
+  transpose_4x4(r[4], r[5], r[6], r[7], out[0].hi, out[1].hi, out[2].hi, out[3].hi);
 #endif
-  }
 }
 
 /// Adds lane k of in[0..2] to components 0..2 of the line at base + 4 index[k], k = 0..7 in order;
 /// the fourth component is left as it is.
 GANNET_INLINE void scatter_add_lines(double* base, const std::int32_t* index, int index_stride,
                                      const Vec8 in[3]) {
-  const __m256d zero = _mm256_setzero_pd();
-  __m256d lo[3];
-  __m256d hi[3];
-  for (int c = 0; c < 3; ++c) {
-#ifdef __AVX512F__
-    lo[c] = _mm512_castpd512_pd256(in[c].v);
-    hi[c] = _mm512_extractf64x4_pd(in[c].v, 1);
-#else
-    lo[c] = in[c].lo;
-    hi[c] = in[c].hi;
-#endif
-  }
   __m256d r[8];
-  transpose_4x4(lo[0], lo[1], lo[2], zero, r[0], r[1], r[2], r[3]);
-  transpose_4x4(hi[0], hi[1], hi[2], zero, r[4], r[5], r[6], r[7]);
+#ifdef __AVX512F__
+  const __m512d zero = _mm512_setzero_pd();
+  const __m512d a = _mm512_unpacklo_pd(in[0].v, in[1].v);  // x0 y0 x2 y2 x4 y4 x6 y6
+  const __m512d b = _mm512_unpackhi_pd(in[0].v, in[1].v);  // x1 y1 x3 y3 x5 y5 x7 y7
+  const __m512d c = _mm512_unpacklo_pd(in[2].v, zero);
+  const __m512d d = _mm512_unpackhi_pd(in[2].v, zero);
+  const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
+  const __m512i last = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+  const auto put = [&r](__m512d two, int low, int high) {
+    r[low] = _mm512_castpd512_pd256(two);
+    r[high] = _mm512_extractf64x4_pd(two, 1);
+  };
+  put(_mm512_permutex2var_pd(a, first, c), 0, 2);
+  put(_mm512_permutex2var_pd(b, first, d), 1, 3);
+  put(_mm512_permutex2var_pd(a, last, c), 4, 6);
+  put(_mm512_permutex2var_pd(b, last, d), 5, 7);
+#else
+  const __m256d zero = _mm256_setzero_pd();
+  transpose_4x4(in[0].lo, in[1].lo, in[2].lo, zero, r[0], r[1], r[2], r[3]);
+  transpose_4x4(in[0].hi, in[1].hi, in[2].hi, zero, r[4], r[5], r[6], r[7]);
+#endif
   for (int k = 0; k < 8; ++k) {
     double* p = base + 4 * static_cast<std::int64_t>(index[k * index_stride]);
     _mm256_store_pd(p, _mm256_add_pd(_mm256_load_pd(p), r[k]));

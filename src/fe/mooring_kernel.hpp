@@ -40,14 +40,15 @@ struct LinePass {
   const double* current =
       nullptr;  ///< velocity of the water: 24 a block, x y z of eight lanes [m/s]
   bool bed = false;
-  double bed_level = 0;                 ///< below which nodes are pushed up [m]
-  double bed_stiffness = 0;             ///< per length of line [N/m^2]
-  double bed_damping = 0;               ///< per length of line [N s/m^2]
-  double friction = 0;                  ///< coefficient of Coulomb
-  const double* x = nullptr;            ///< lines: position at n [m]; mass
-  const double* v = nullptr;            ///< lines: velocity [m/s]; inverse mass
-  double* f = nullptr;                  ///< lines: force [N]
-  const std::int32_t* nodes = nullptr;  ///< 24 a block: the node before, the node, the node after
+  double bed_level = 0;       ///< below which nodes are pushed up [m]
+  double bed_stiffness = 0;   ///< per length of line [N/m^2]
+  double bed_damping = 0;     ///< per length of line [N s/m^2]
+  double friction = 0;        ///< coefficient of Coulomb
+  const double* x = nullptr;  ///< lines: position at n [m]; mass
+  const double* v = nullptr;  ///< lines: velocity [m/s]; inverse mass
+  double* f = nullptr;        ///< lines: force [N]
+  /// 24 a block: the node before, the node, the node after. Lanes follow each other along the line.
+  const std::int32_t* nodes = nullptr;
   double* state = nullptr;
   double* stuck_x = nullptr;  ///< per lane: where friction holds a node [m]
   double* stuck_y = nullptr;

@@ -41,12 +41,17 @@ struct Nodes8 {
 GANNET_INLINE Nodes8 gather_nodes(const LinePass& pass, const Numbers& n, std::int32_t block) {
   const std::int32_t* nodes = pass.nodes + 24 * static_cast<std::int64_t>(block);
   Nodes8 a;
-  const Vec8x3 before = gather_corner<Vec8>(pass.x, nodes, 0);
-  const Vec8x3 after = gather_corner<Vec8>(pass.x, nodes, 2);
   Vec8 line[4];
   gather_lines(pass.x, nodes + 8, 1, line);
   a.x = {line[0], line[1], line[2]};
   a.m = line[3];
+  // The node before that of a lane is the one of the lane below.
+  const double* first = pass.x + 4 * static_cast<std::int64_t>(nodes[0]);
+  const double* last = pass.x + 4 * static_cast<std::int64_t>(nodes[23]);
+  const Vec8x3 before{lanes_up(a.x.x, first[0]), lanes_up(a.x.y, first[1]),
+                      lanes_up(a.x.z, first[2])};
+  const Vec8x3 after{lanes_down(a.x.x, last[0]), lanes_down(a.x.y, last[1]),
+                     lanes_down(a.x.z, last[2])};
   gather_lines(pass.v, nodes + 8, 1, line);
   a.v = {line[0], line[1], line[2]};
   a.inverse_m = line[3];

@@ -70,3 +70,17 @@ TEST_CASE("simd: masks tell whether a lane is left out", "[base]") {
   CHECK(leaves_out(m));
   CHECK(sum(select(m, Vec::load(t), Vec(0.0))) == vec_lanes - 1);
 }
+
+TEST_CASE("simd: eight lanes move by one, across the halves too", "[base]") {
+  using namespace gannet::avx2_tested;
+  alignas(64) double at[8];
+  for (int k = 0; k < 8; ++k) at[k] = k;
+  alignas(64) double up[8];
+  alignas(64) double down[8];
+  lanes_up(Vec8::load(at), -1).store(up);
+  lanes_down(Vec8::load(at), 8).store(down);
+  for (int k = 0; k < 8; ++k) {
+    CHECK(up[k] == k - 1);
+    CHECK(down[k] == k + 1);
+  }
+}
