@@ -173,6 +173,7 @@ void note_carrier(Scene& scene, RigidBody& body, double mass) {
   c.q = c.q_next = quaternion_of(body.q);
   c.inverse_mass = 1 / mass;
   c.softest = softest(body);
+  c.inverse_inertia = body.inverse_inertia;
   scene.after_restart.emplace_back([&body] { body.carrier->q = quaternion_of(body.q); });
 }
 

@@ -1,5 +1,6 @@
 #include "contact/force.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -44,14 +45,80 @@ Vec3 relative_velocity(const ContactInput& in, std::size_t row) {
   return xyz(in.nodes->v[node_of_row(in, row)]) - foot;
 }
 
-/// Raises the rate to that of the bodies that surface nodes belong to.
-void consider_bodies(const ContactInput& in, std::span<const double> stiffness, ContactRate& rate) {
-  if (in.followers == nullptr || in.followers->leader.empty()) return;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/// Sum of k b b^T over the rows on a rigid body (largest_rate()).
+struct BodyStiffness {
+  Vec3 centre;
+  double mass_root;   ///< M^(-1/2) [kg^(-1/2)]
+  Mat3 inertia_root;  ///< R [(kg m^2)^(-1/2)]
+  Mat6 sum = Mat6::Zero();
+
+  BodyStiffness(const Carrier& body, const Vec3& at)
+      : centre(at), mass_root(std::sqrt(body.inverse_mass)) {
+    const Mat3 A = body.q.toRotationMatrix();
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(body.inverse_inertia);
+    inertia_root = A * axes.operatorSqrt() * A.transpose();
+  }
+  void add(double k, const Vec3& foot, const Vec3& d) {
+    Eigen::Matrix<double, 6, 1> b;
+    b << mass_root * d, inertia_root * (foot - centre).cross(d);
+    sum += k * b * b.transpose();
+  }
+  [[nodiscard]] double omega2() const {
+    return 2 * Eigen::SelfAdjointEigenSolver<Mat6>(sum, Eigen::EigenvaluesOnly).eigenvalues()[5];
+  }
+};
+
+const Carrier* carrier_at(const ContactInput& in, Index leader) {
+  if (in.carriers == nullptr) return nullptr;
+  const auto found = std::ranges::find(in.carriers->list, leader, &Carrier::node);
+  return found == in.carriers->list.end() ? nullptr : &*found;
+}
+
+/// The leader of a node where it is a rigid body, else -1.
+Index body_of(const ContactInput& in, Index node) {
+  const Index leader = in.followers->leader_of(node);
+  return leader >= 0 && carrier_at(in, leader) != nullptr ? leader : -1;
+}
+
+/// Raises the rate to that of the rigid bodies that segments belong to.
+void consider_bodies(const ContactInput& in, const ContactLaw& law, ContactRate& rate) {
+  std::map<Index, BodyStiffness> bodies;  // by leader
+  for (std::size_t r = 0; r < static_cast<std::size_t>(in.candidates->n_rows()); ++r) {
+    const Gap& gap = in.gaps[r];
+    if (gap.segment < 0) continue;
+    const Segment& g = in.surface->segments[static_cast<std::size_t>(gap.segment)];
+    const Index leader = body_of(in, in.surface->node[static_cast<std::size_t>(g.corner[0])]);
+    if (leader < 0) continue;
+    auto body = bodies.find(leader);
+    if (body == bodies.end()) {
+      const Vec3 centre = xyz(in.nodes->x[static_cast<std::size_t>(leader)]);
+      body = bodies.try_emplace(leader, *carrier_at(in, leader), centre).first;
+    }
+    const double k = stiffness_of_row(in, law, r);
+    const Vec3 foot =
+        at_foot<Vec3>(*in.surface, gap, [&](std::size_t i) { return xyz(in.surface->x[i]); });
+    if (law.friction > 0) {
+      for (Eigen::Index d = 0; d < 3; ++d) body->second.add(k, foot, Vec3::Unit(d));
+    } else {
+      body->second.add(k, foot, gap.normal);
+    }
+  }
+  for (const auto& [leader, body] : bodies) {
+    const double omega2 = body.omega2();
+    if (omega2 > rate.omega2) rate = {omega2, leader};
+  }
+}
+
+/// The same of other leaders, of which only the inverse masses of their followers are known.
+void consider_leaders(const ContactInput& in, std::span<const double> stiffness,
+                      ContactRate& rate) {
   std::map<Index, double> omega2;  // by leader
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const Index node = in.surface->node[i];
     const Index leader = in.followers->leader_of(node);
-    if (leader < 0) continue;
+    if (leader < 0 || body_of(in, node) >= 0) continue;
     omega2[leader] += 2 * stiffness[i] * in.followers->inverse_mass[static_cast<std::size_t>(node)];
   }
   for (const auto& [leader, value] : omega2) {
@@ -154,7 +221,9 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     consider(stiffness[i], static_cast<std::size_t>(in.surface->node[i]));
   }
-  consider_bodies(in, stiffness, rate);
+  if (in.followers == nullptr || in.followers->leader.empty()) return rate;
+  consider_bodies(in, law, rate);
+  consider_leaders(in, stiffness, rate);
   return rate;
 }
 

@@ -11,6 +11,7 @@
 #include "contact/gap.hpp"
 #include "contact/surface.hpp"
 #include "plan/plan.hpp"
+#include "scene/carrier.hpp"
 #include "scene/followers.hpp"
 #include "scene/scene.hpp"
 #include "search/segment_search.hpp"
@@ -63,6 +64,7 @@ struct ContactInput {
   std::span<const Gap> gaps;
   double dt_old = 0;                     ///< step before this level [s]
   const Followers* followers = nullptr;  ///< surface nodes that are part of something heavier
+  const Carriers* carriers = nullptr;    ///< rigid bodies that surface nodes may follow
   std::span<const Index> point_node{};   ///< node of each point, where they are not a range
   std::span<const double> stiffness{};   ///< of each row [N/m], where it does not follow the law
 };
@@ -93,10 +95,14 @@ struct ContactRate {
 /// contact stiffness K = sum k g g^T, g = (n, -N_1 n, ...), has the absolute sum k (1 + sum N) =
 /// 2k, row i of a segment node sum_p k N_i (1 + sum N) = 2 S_i, so
 ///   omega^2 <= max(max_p 2 k_p / m_p, max_i 2 S_i / m_i).
-/// Nodes that follow one leader move together, and count as one,
-///   omega^2 <= 2 sum_i S_i w_i,   w_i = 1/M + r_i^2/I_min  (Followers::inverse_mass):
-/// a pair's k (e - b)(e - b)^T, e its point and b what it moves of the body, is at most
-/// 2 k (e e^T + b b^T), and the largest eigenvalue of a sum of b b^T is at most its trace.
+/// Nodes that follow one leader move together, and count as one. A pair's k (e - b)(e - b)^T, e its
+/// point and b what it moves of the leader, is at most 2 k (e e^T + b b^T), and b b^T of a rigid
+/// body is a matrix of 6 x 6,
+///   omega^2 <= 2 lambda_max(sum_p k_p b_p b_p^T),   b = (d/M^(1/2), R (r x d)),
+/// d the normal, or with friction each of three directions, r from the centre, R^2 the inverse
+/// inertia. Of other leaders only w_i is known, and the largest eigenvalue of a sum of b b^T is at
+/// most its trace,
+///   omega^2 <= 2 sum_i S_i w_i   (Followers::inverse_mass).
 /// Other nodes that forces do not move (1/m = 0) are left out.
 ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
                          std::span<const double> stiffness);

@@ -18,8 +18,8 @@ namespace gannet {
 namespace {
 
 ContactInput input_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
-  return {&scene.nodes, scene.particles, &c.surface, &c.candidates,
-          c.gaps,       step.dt_old,     c.followers};
+  return {&scene.nodes, scene.particles, &c.surface,  &c.candidates,
+          c.gaps,       step.dt_old,     c.followers, c.carriers};
 }
 
 /// Arrays over rows; they grow only when a list is made.
@@ -181,6 +181,7 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.particle_part = particle_part;
   c.surface_part = surface_part;
   c.followers = &scene.store.get<Followers>();
+  c.carriers = &scene.store.get<Carriers>();
   c.periods = &scene.store.get<Periods>();
   c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
   c.node_stiffness.resize(c.surface.node.size());

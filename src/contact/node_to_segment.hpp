@@ -30,6 +30,7 @@ struct NodeToSegment {
   int particle_part = -1;
   int surface_part = -1;
   const Followers* followers = nullptr;  ///< those of the scene
+  const Carriers* carriers = nullptr;    ///< likewise
   const Periods* periods = nullptr;      ///< likewise; of the particles
   GapRange range;
   ContactLaw law;

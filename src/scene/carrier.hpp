@@ -1,5 +1,5 @@
-// Rigid bodies as others know them that let particles ride on them: who makes a body keeps how it
-// moves, who carries particles on it says what pushes these.
+// Rigid bodies as others know them that push them or let particles ride on them: who makes a body
+// keeps how it moves, who carries particles on it says what pushes these.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@ struct Carrier {
   Quaternion q_next = Quaternion::Identity();  ///< the same at n+1, from the kick on
   double inverse_mass = 0;                     ///< [1/kg]
   double softest = 0;                          ///< least principal moment of inertia [kg m^2]
+  Mat3 inverse_inertia = Mat3::Zero();         ///< in its frame [1/(kg m^2)]
   Vec3 force = Vec3::Zero();                   ///< on what it carries, at level n [N]
   Vec3 moment = Vec3::Zero();                  ///< the same about the centre [N m]
 

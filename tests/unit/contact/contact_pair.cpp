@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <numbers>
 #include <random>
 
 #include "base/parallel.hpp"
@@ -225,6 +226,30 @@ TEST_CASE("contact: nodes that follow a body vote with what a force on them move
   // 2 k sum N w = 2 * 500 * (3/8 10 + 1/8 20 + 3/8 30)
   CHECK(c.rate.node == 3);
   CHECK(c.rate.omega2 == Approx(17500));
+}
+
+TEST_CASE("contact: a rigid body votes with its mass and inertia", "[contact]") {
+  Scene scene;
+  Builder b = bouncer(0, {0.25, 0.5, 0.06}, {0, 0, 0});
+  b.particle_mass = 0.5;
+  b.fill(scene);
+  NodeToSegment& c = add_contact(scene, 0.1, 1000);
+  auto& followers = scene.store.get<Followers>();
+  followers.leader = {3, 3, 3, -1, -1};
+  followers.inverse_mass = {10, 20, 30, 0, 0};
+  Carrier& body = scene.store.get<Carriers>().list.emplace_back();
+  body.node = 3;
+  body.inverse_mass = 4;
+  body.inverse_inertia = Vec3(1, 2, 3).asDiagonal();
+  // One row: 2 k (1/M + (r x n) I^-1 (r x n)), r from the centre in the plane of the segment.
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  const Vec3 r = Vec3(0.25, 0.5, 0) - xyz(scene.nodes.x[3]);
+  CHECK(c.rate.node == 3);
+  CHECK(c.rate.omega2 == Approx(2 * 500 * (4 + r.y() * r.y() + 2 * r.x() * r.x())));
+  // Turned by a quarter about z, the axes have changed places.
+  body.q = Quaternion(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitZ()));
+  apply_contact(scene, c, {}, search(scene, c, {}));
+  CHECK(c.rate.omega2 == Approx(2 * 500 * (4 + 2 * r.y() * r.y() + r.x() * r.x())));
 }
 
 TEST_CASE("contact: particles far away make no pairs and no vote", "[contact]") {
