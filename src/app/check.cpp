@@ -98,7 +98,7 @@ void print_steps(Models& models) {
   for (const Model& model : models.list) {
     const Vote vote = smallest_vote(model);
     fmt::print("model {}: time step {:.4g} s at the start, limited by {}\n", model.name, vote.dt,
-               vote.who);
+               vote.limited_by());
     for (const Vote& v : small_votes(model)) {
       fmt::print("    {:<12.4g} {}\n", v.dt * model.dt_scale, v.who);
     }

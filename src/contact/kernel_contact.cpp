@@ -300,8 +300,12 @@ void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& le
                         search(scene, c, step);
                         apply_kernel_contact(scene, c);
                       },
-                  .stable_dt = [&c] { return contact_step(c.rate.omega2, 0); },
-                  .limited_by = [&scene, &c] { return who_limits(scene, c); }});
+                  .stable_dt =
+                      [&scene, &c] {
+                        c.limited_by = who_limits(scene, c);
+                        return contact_step(c.rate.omega2, 0);
+                      },
+                  .limited_by = [&c] { return c.limited_by; }});
   LedgerEntry& entry = ledger.entry("contact", c.name);
   model.plan.add({.name = "contact " + c.name + ": work",
                   .reason = asked_for_at(c.where),

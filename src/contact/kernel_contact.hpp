@@ -55,6 +55,7 @@ struct KernelContact {
   Vec3 on_surface = Vec3::Zero();  ///< sum of the forces on the nodes [N]
   Index active = 0;                ///< particles that are pushed
   ContactRate rate;
+  std::string limited_by;  ///< of `rate`, from the vote on: particles are sorted later in the step
 };
 
 /// All kernel contacts of a scene: scene.store.get<KernelContacts>().

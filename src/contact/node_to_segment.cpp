@@ -253,8 +253,11 @@ void add_node_to_segment(Scene& scene, NodeToSegment& c, Models& models) {
     const bool first = search(scene, c, step);
     apply_contact(scene, c, step, first);
   };
-  op.stable_dt = [&c] { return contact_step(c.rate.omega2, c.law.damping); };
-  op.limited_by = [&scene, &c] { return who_limits(scene, c); };
+  op.stable_dt = [&scene, &c] {
+    c.limited_by = who_limits(scene, c);
+    return contact_step(c.rate.omega2, c.law.damping);
+  };
+  op.limited_by = [&c] { return c.limited_by; };
   model.plan.add(std::move(op));
   if (is_linked(c)) close_link(scene, c.link, models.ledger);
   add_work(scene, c, model, models.ledger);

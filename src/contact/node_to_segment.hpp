@@ -53,6 +53,7 @@ struct NodeToSegment {
   std::vector<WorkPath> point_path, node_path;
   Scattered scattered;
   ContactRate rate;
+  std::string limited_by;  ///< of `rate`, from the vote on: particles are sorted later in the step
 
   /// Of a surface in a faster model: link.nodes are those of the surface, else none.
   Link link;

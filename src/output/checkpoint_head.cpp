@@ -42,7 +42,7 @@ Json to_json(const CheckpointHead::ModelState& m) {
           {"dt", exact(m.step.dt)},
           {"coincides", m.step.coincides},
           {"vote", exact(m.vote.dt)},
-          {"who", m.vote.who},
+          {"who", m.vote.limited_by()},
           {"target", exact(m.target)},
           {"substeps_left", m.substeps_left}};
 }

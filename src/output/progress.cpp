@@ -62,7 +62,7 @@ ProgressValues Progress::values(Scene& scene, const Models& models, const RunRec
   v.t = slow.t;
   v.step = fast.step.n;
   v.dt = fast.step.dt;
-  v.who = fast.vote.who;
+  v.who = fast.vote.limited_by();
   v.energy_error = scene.store.get<GuardState>().balance.error();
   v.particle_steps_per_second = (done.particle_steps - last_done_.particle_steps) / seconds;
   v.element_steps_per_second = (done.element_steps - last_done_.element_steps) / seconds;

@@ -50,6 +50,11 @@ double Ledger::external() const {
   return sum;
 }
 
+std::string Vote::limited_by() const {
+  if (by == nullptr) return who;
+  return by->limited_by ? by->limited_by() : by->name;
+}
+
 Operation& Plan::add(Operation operation) {
   auto& stage = at(operation.stage);
   stage.push_back(std::move(operation));

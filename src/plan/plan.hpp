@@ -36,10 +36,15 @@ struct Stopwatch {
   std::int64_t calls = 0;
 };
 
+struct Operation;
+
 /// A limit on the time step.
 struct Vote {
   double dt = std::numeric_limits<double>::infinity();  ///< [s]
   std::string who;                                      ///< "panel: element 1207"
+  const Operation* by = nullptr;  ///< who casts it, where `who` was not yet asked for
+  /// Who limits the step. Asked for only where it is read: words cost more than a short step.
+  [[nodiscard]] std::string limited_by() const;
 };
 
 /// One thing that happens in a step.

@@ -139,9 +139,12 @@ void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
             .stable_dt =
                 [&] {
                   sph.vote = smallest_stable_step(sph, scene);
+                  if (sph.vote.particle >= 0) {
+                    sph.limited_by = text_of_particle(scene, sph.vote.particle);
+                  }
                   return sph.vote.dt;
                 },
-            .limited_by = [&] { return text_of_particle(scene, sph.vote.particle); },
+            .limited_by = [&] { return sph.limited_by; },
             .smallest = [&](std::size_t n) { return smallest_votes(sph, scene, n); }});
 }
 

@@ -82,6 +82,7 @@ struct SphState {
   Array<double> scratch;                 ///< one number a particle
   std::vector<double> internal_at_rest;  ///< of the particles at rest of each part [J]; or empty
   ParticleVote vote;                     ///< of the last choice of the step
+  std::string limited_by;                ///< its particle, in words: they are sorted later on
   bool warned = false;                   ///< the user knows that sound is too slow
 };
 

@@ -169,7 +169,7 @@ void check_step(GuardState& state, const Model& model) {
   if (first == 0) first = dt;
   if (dt >= state.limits.smallest_dt_ratio * first) return;
   throw RunError({fmt::format("the time step collapsed to {:.3g} s", dt),
-                  fmt::format("model {}, {}", model.name, model.vote.who),
+                  fmt::format("model {}, {}", model.name, model.vote.limited_by()),
                   fmt::format("at {}; the first step was {:.3g} s", when(model.step), first),
                   "look at the element or particle named: it is crushed, or its contact is too "
                   "stiff"});

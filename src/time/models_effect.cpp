@@ -245,7 +245,7 @@ void warn_of_order(Scene& scene, const Models& models) {
     scene.warnings.push_back(fmt::format(
         "models: '{}' stands before '{}', but its first step is smaller ({:.3g} s, {}; {:.3g} s): "
         "list the slowest model first",
-        slow.name, fast.name, slow.vote.dt, slow.vote.who, fast.vote.dt));
+        slow.name, fast.name, slow.vote.dt, slow.vote.limited_by(), fast.vote.dt));
   }
 }
 

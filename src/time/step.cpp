@@ -27,13 +27,14 @@ void run(std::span<Model* const> level, Stage stage) {
 }
 
 [[noreturn]] void no_step(const Model& model) {
-  throw RunError({fmt::format("the time step became {} s", model.vote.dt),
-                  fmt::format("model {}, {}", model.name,
-                              model.vote.who.empty() ? "no operation votes" : model.vote.who),
-                  fmt::format("at t = {:.6g} s, step {}, the operation named above allows no "
-                              "positive, finite step",
-                              model.step.t, model.step.n),
-                  "look at the last frames near that place; refine, stiffen or damp there"});
+  throw RunError(
+      {fmt::format("the time step became {} s", model.vote.dt),
+       fmt::format("model {}, {}", model.name,
+                   model.vote.by == nullptr ? "no operation votes" : model.vote.limited_by()),
+       fmt::format("at t = {:.6g} s, step {}, the operation named above allows no "
+                   "positive, finite step",
+                   model.step.t, model.step.n),
+       "look at the last frames near that place; refine, stiffen or damp there"});
 }
 
 /// Shares of a step below which a difference is rounding.
@@ -67,7 +68,6 @@ void advance_time(std::span<Model* const> level) {
 }  // namespace
 
 Vote smallest_vote(const Model& model) {
-  const Operation* who = nullptr;
   Vote vote;
   for (int s = 0; s < n_stages; ++s) {
     for (const Operation& op : model.plan.at(static_cast<Stage>(s))) {
@@ -75,12 +75,11 @@ Vote smallest_vote(const Model& model) {
       const double dt = op.stable_dt();
       if (!(dt >= vote.dt)) {
         vote.dt = dt;
-        who = &op;
+        vote.by = &op;
       }
     }
   }
   vote.dt *= model.dt_scale;
-  if (who != nullptr) vote.who = who->limited_by ? who->limited_by() : who->name;
   return vote;
 }
 

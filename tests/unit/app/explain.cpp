@@ -387,7 +387,7 @@ output: {until: 1 ms, vtk: never, history: never, checkpoint: never}
     const std::vector<Vote> votes = op.smallest(16);
     REQUIRE(votes.size() == 16);
     CHECK(votes[0].dt == Approx(smallest.dt).epsilon(1e-12));
-    CHECK(votes[0].who == smallest.who);
+    CHECK(votes[0].who == smallest.limited_by());
     CHECK(std::is_sorted(votes.begin(), votes.end(),
                          [](const Vote& a, const Vote& b) { return a.dt < b.dt; }));
     std::vector<std::string> names;

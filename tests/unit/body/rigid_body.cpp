@@ -223,7 +223,7 @@ TEST_CASE("rigid body: a spinning body votes for 0.2 rad a step", "[body]") {
   hull.world->dt = 1;
   hull.world->take_steps(1);
   CHECK(hull.world->model().step.dt_old == Approx(0.02).epsilon(1e-14));
-  CHECK(hull.world->model().vote.who == "hull: its rotation");
+  CHECK(hull.world->model().vote.limited_by() == "hull: its rotation");
 }
 
 TEST_CASE("rigid body: the tracked fields carry it on, bit for bit", "[body]") {

@@ -92,7 +92,7 @@ TEST_CASE("shell effect: free flight strains nothing, and who limits the step is
   for (int k = 0; k < 20; ++k) step(level);
   CHECK(b->models.ledger.entry("internal", "panel").value == Approx(0).margin(1e-20));
   CHECK(scene.nodes.v[7].z == Approx(-2).epsilon(1e-14));
-  CHECK(model.vote.who.find("panel: element") == 0);
+  CHECK(model.vote.limited_by().find("panel: element") == 0);
   // An elastic wave of 6.1 km/s, sqrt(E/((1 - nu) rho)), and elements of 80 mm: 13 us times 0.9.
   CHECK(model.step.dt == Approx(0.9 * 0.08 / std::sqrt(70e9 / (0.7 * 2700))).epsilon(0.02));
 }
@@ -192,7 +192,7 @@ TEST_CASE("shell effect: a mesh of quadrilaterals and triangles is one part", "[
   for (Index c = 0; c < part.n_cells(); ++c) {
     CHECK(*reinterpret_cast<const double*>(stress->at(c, 1)) == Approx(first).epsilon(1e-9));
   }
-  CHECK(model.vote.who.find("panel: element") == 0);
+  CHECK(model.vote.limited_by().find("panel: element") == 0);
 }
 
 TEST_CASE("shell effect: a plate may be cut into triangles", "[fe]") {

@@ -90,7 +90,7 @@ TEST_CASE("truss: a swinging chain keeps its energy", "[fe]") {
   }
   CHECK(start > 1);
   CHECK(models.ledger.entry("internal", "chain").value > 0);
-  CHECK(model.vote.who.substr(0, 14) == "chain: element");
+  CHECK(model.vote.limited_by().substr(0, 14) == "chain: element");
   // The leapfrog's energy error at dt = 0.9 of the stable step oscillates, bounded.
   CHECK(worst < 0.02 * start);
 }

@@ -75,7 +75,7 @@ TEST_CASE("checkpoint: every field comes back bit for bit, also resized ones", "
   CHECK(b.n == 7);
   CHECK(b.t == a.t);
   CHECK(b.dt_old == a.dt_old);
-  CHECK(fresh.models.list.front().vote.who == "springs: node 3");
+  CHECK(fresh.models.list.front().vote.limited_by() == "springs: node 3");
   CHECK(fresh.models.ledger.entry("late", "made in a step").value == 1e-17);
   CHECK(fresh.models.ledger.held() == saved.small.models.ledger.held());
   CHECK(fresh.record().output.last_look == 0.3);
