@@ -258,8 +258,9 @@ void look_at_buffers(Scene& scene, Models& models, const PartTies& all) {
   models.list.back().plan.add({.name = "buffers of ties across models",
                                .reason = asked_for_at(all.list.front().where),
                                .stage = Stage::look,
-                               .run = [&](const Step& step) {
-                                 if (step.coincides && models.list.front().step.n == 0) {
+                               .where_all_meet = true,
+                               .run = [&](const Step&) {
+                                 if (models.list.front().step.n == 0) {
                                    warn_of_buffers(scene, models, all);
                                  }
                                }});

@@ -105,7 +105,7 @@ void check_names(const Keys& keys, const Scene& scene, const RunRecord& record) 
 
 /// True at the levels at which `every` is due, and at the last level of the run.
 bool acts(const Every& every, const RunRecord& record, const Step& s) {
-  if (!s.coincides || record.folder.empty() || !(every.interval > 0)) return false;
+  if (record.folder.empty() || !(every.interval > 0)) return false;
   const OutputProgress& o = record.output;
   const bool ends = s.t >= record.plan.until || !record.stop_reason.empty();
   const bool last = ends && o.last_look < record.plan.until;
@@ -132,6 +132,7 @@ void add_histories(const Keys& keys, Scene& scene, Models& models, RunRecord& re
   models.list.back().plan.add({.name = "histories",
                                .reason = reason(keys, "history", record.plan.history),
                                .stage = Stage::look,
+                               .where_all_meet = true,
                                .reads = {"ledger", "measures"},
                                .run = [history, &guards, &record](const Step& s) {
                                  if (!acts(record.plan.history, record, s)) return;
@@ -148,6 +149,7 @@ void add_stray_looks(const Keys& keys, Scene& scene, Models& models, RunRecord& 
                                .reason = "for summary.json, with the histories: " +
                                          reason(keys, "history", record.plan.history),
                                .stage = Stage::look,
+                               .where_all_meet = true,
                                .reads = {"x"},
                                .run = [&scene, &record](const Step& s) {
                                  if (!acts(record.plan.history, record, s)) return;
@@ -160,6 +162,7 @@ void add_frames(const Keys& keys, Scene& scene, Models& models, RunRecord& recor
   models.list.back().plan.add({.name = "VTK frames",
                                .reason = reason(keys, "vtk", record.plan.vtk),
                                .stage = Stage::look,
+                               .where_all_meet = true,
                                .reads = shown_fields(scene),
                                .run = [&scene, &models, &record](const Step& s) {
                                  if (!acts(record.plan.vtk, record, s)) return;
@@ -174,9 +177,10 @@ void add_stop(const Keys& keys, const Scene& scene, Models& models, RunRecord& r
   models.list.back().plan.add({.name = "stop criterion",
                                .reason = asked_for_at(keys.where("stop")),
                                .stage = Stage::look,
+                               .where_all_meet = true,
                                .reads = {"measures"},
                                .run = [check, &record](const Step& s) {
-                                 if (!s.coincides || record.output.finished) return;
+                                 if (record.output.finished) return;
                                  record.stop_reason = check(s.t);
                                }});
 }
@@ -195,8 +199,8 @@ void output_operations(const Keys& root, Scene& scene, Models& models) {
       {.name = "end of run",
        .reason = "until " + time_text(record.plan.until) + ", " + asked_for_at(keys.where("until")),
        .stage = Stage::look,
+       .where_all_meet = true,
        .run = [&record](const Step& s) {
-         if (!s.coincides) return;
          record.output.last_look = s.t;
          const bool stops = !record.stop_reason.empty();
          if (stops) record.stop_reason += " at " + time_text(s.t);

@@ -49,6 +49,30 @@ std::vector<OperationCost> operation_costs(const Models& models, double wall) {
   return costs;
 }
 
+std::vector<ModelCost> model_costs(const Models& models) {
+  std::vector<ModelCost> costs;
+  for (const Model& m : models.list) {
+    ModelCost& cost = costs.emplace_back(ModelCost{.model = m.name});
+    for (int s = 0; s < n_stages; ++s) {
+      for (const Operation& op : m.plan.at(static_cast<Stage>(s))) {
+        (op.where_all_meet ? costs.front() : cost).seconds += op.watch.seconds;
+        if (!op.where_all_meet) cost.steps = std::max(cost.steps, op.watch.calls);
+      }
+    }
+  }
+  return costs;
+}
+
+double subcycling_gain(const std::vector<ModelCost>& costs) {
+  double of_one_step = 0;
+  double all = 0;
+  for (const ModelCost& c : costs) {
+    of_one_step += c.of_step();
+    all += c.seconds;
+  }
+  return all > 0 ? static_cast<double>(costs.back().steps) * of_one_step / all : 1;
+}
+
 RestSaving rest_saving(const Scene& scene, const Models& models) {
   const Resting& resting = scene.resting;
   if (!(resting.all_particle_steps > 0)) return {};
@@ -72,6 +96,18 @@ std::string text_of(const Measure& measure) {
                         measure.unit);
   }
   return text;
+}
+
+/// "models: sea 42 steps of 87.9 ms, structure 842 of 43.3 us; ..."
+std::string text_of_models(const std::vector<ModelCost>& costs) {
+  std::string text = "models:";
+  for (const ModelCost& c : costs) {
+    const bool first = &c == &costs.front();
+    text += fmt::format("{} {} {}{} of {}", first ? "" : ",", c.model, c.steps,
+                        first ? " steps" : "", time_text(c.of_step()));
+  }
+  return text + fmt::format("; all at the step of {} would take {:.4g} times as long\n",
+                            costs.back().model, subcycling_gain(costs));
 }
 
 }  // namespace
@@ -100,6 +136,7 @@ std::string report(Scene& scene, const Models& models, const RunRecord& record) 
     fmt::format_to(out, "{} particles were lost: behind a wall, or far out (docs/output.md)\n",
                    record.output.strays.lost);
   }
+  if (several) text += text_of_models(model_costs(models));
   if (scene.resting.all_particle_steps > 0) {
     const RestSaving saving = rest_saving(scene, models);
     fmt::format_to(out,

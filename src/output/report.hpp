@@ -44,6 +44,24 @@ struct RestSaving {
 };
 RestSaving rest_saving(const Scene& scene, const Models& models);
 
+/// What the operations of one model cost in this process. Those that run only where all models meet
+/// count with the slowest, at whose steps they run.
+struct ModelCost {
+  std::string model;
+  std::int64_t steps = 0;
+  double seconds = 0;
+  [[nodiscard]] double of_step() const {
+    return steps > 0 ? seconds / static_cast<double>(steps) : 0;
+  }
+};
+std::vector<ModelCost> model_costs(const Models& models);
+
+/// How many times as long the same would take with all models at the step of the fastest, if every
+/// operation cost as much a step as it did: n_last sum_k c_k / sum_k n_k c_k, c_k the cost of a
+/// step of model k and n_k their number [-]. For two models r (1 + f)/(1 + r f), r = n_2/n_1, f =
+/// c_2/c_1. 1 before the first step.
+double subcycling_gain(const std::vector<ModelCost>& costs);
+
 /// The report: how the run ended, and one line an operation: stage, name, calls, seconds, share.
 /// The same list as `gannet explain` prints.
 std::string report(Scene& scene, const Models& models, const RunRecord& record);

@@ -52,6 +52,7 @@ struct Operation {
   std::string name;
   std::string reason;  ///< "asked for at case.yaml:41", or the rule with its numbers
   Stage stage = Stage::force;
+  bool where_all_meet = false;  ///< runs only where all models stand at the same time
   std::vector<std::string> reads;
   std::vector<std::string> writes;
   std::vector<std::string> owns;

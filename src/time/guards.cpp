@@ -205,10 +205,10 @@ void guards_operations(const Keys& root, Scene& scene, Models& models) {
   model.plan.add({.name = "energy balance",
                   .reason = "always there: the energy ledger",
                   .stage = Stage::look,
+                  .where_all_meet = true,
                   .reads = {"ledger"},
                   .owns = {"guards"},
-                  .run = [&state, &ledger](const Step& s) {
-                    if (!s.coincides) return;
+                  .run = [&state, &ledger](const Step&) {
                     state.balance.update(ledger);
                     save(state);
                   }});
@@ -221,9 +221,9 @@ void guards_operations(const Keys& root, Scene& scene, Models& models) {
   model.plan.add({.name = "guards",
                   .reason = "rule: stops a run that goes wrong",
                   .stage = Stage::look,
+                  .where_all_meet = true,
                   .reads = {"x", "v", "rho", "ledger"},
                   .run = [&scene, &state, &models](const Step& s) {
-                    if (!s.coincides) return;
                     check_motion(scene, state.limits, s);
                     check_density(scene, state.limits, s);
                     check_energy(state, s);

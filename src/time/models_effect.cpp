@@ -254,10 +254,9 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   models.list.back().plan.add({.name = "order of models",
                                .reason = asked_for_at(root.where("models")),
                                .stage = Stage::look,
-                               .run = [&scene, &models](const Step& step) {
-                                 if (step.coincides && models.list.front().step.n == 0) {
-                                   warn_of_order(scene, models);
-                                 }
+                               .where_all_meet = true,
+                               .run = [&scene, &models](const Step&) {
+                                 if (models.list.front().step.n == 0) warn_of_order(scene, models);
                                }});
 }
 

@@ -99,3 +99,30 @@ TEST_CASE("report: times, durations and counts as a person reads them", "[output
   CHECK(count_text(1.25e6) == "1.25 M");
   CHECK(count_text(12) == "12");
 }
+
+TEST_CASE("report: what subcycling gains follows from the costs of the models' steps", "[output]") {
+  // r = 20 and f = 1e-3: r (1 + f)/(1 + r f).
+  const std::vector<ModelCost> two{{"sea", 40, 4.0}, {"structure", 800, 0.08}};
+  CHECK(subcycling_gain(two) == Approx(20 * 1.001 / 1.02));
+  const std::vector<ModelCost> three{{"a", 1, 1.0}, {"b", 2, 1.0}, {"c", 4, 1.0}};
+  CHECK(subcycling_gain(three) == Approx(4 * (1 + 0.5 + 0.25) / 3));
+  CHECK(subcycling_gain({{"sea", 0, 0.0}, {"structure", 0, 0.0}}) == 1);
+}
+
+TEST_CASE("report: what runs where all models meet counts with the slowest", "[output]") {
+  Models models;
+  models.list.emplace_back().name = "slow";
+  models.list.emplace_back().name = "fast";
+  const auto add = [](Model& model, bool meet, double seconds, std::int64_t calls) {
+    Operation& op = model.plan.add({.name = "op", .where_all_meet = meet});
+    op.watch = {seconds, calls};
+  };
+  add(models.list[0], false, 3, 10);
+  add(models.list[1], false, 2, 50);
+  add(models.list[1], true, 1, 10);
+  const std::vector<ModelCost> costs = model_costs(models);
+  CHECK(costs[0].steps == 10);
+  CHECK(costs[0].seconds == 4);
+  CHECK(costs[1].steps == 50);
+  CHECK(costs[1].seconds == 2);
+}
