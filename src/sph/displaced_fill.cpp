@@ -1,28 +1,29 @@
 // fill.outside: particles stand only where bodies are not. It looks at the parts of the draft once
 // all of them are there, and so stands in the table behind whoever makes them.
-#include <algorithm>
 #include <cstdint>
 
-#include "base/parallel.hpp"
 #include "scene/draft_surface.hpp"
 #include "scene/periods.hpp"
 #include "sph/effects.hpp"
+#include "sph/outer_layers.hpp"
 
 namespace gannet {
 
 namespace {
 
 Schema schema() {
-  return {{"parts.*.fill",
-           {.name = "outside",
-            .kind = Kind::names,
-            .text = "parts that together enclose a volume in which no particles start, nor nearer "
-                    "to it than half a spacing"}}};
+  return {
+      {"parts.*.fill",
+       {.name = "outside",
+        .kind = Kind::names,
+        .text = "parts that together enclose a volume in which no particles start; those next to "
+                "it stand evenly, half a spacing off"}}};
 }
 
-/// Removes the points that are, or have an image that is, inside of the surface or nearer to it
-/// than `gap` [m].
-void clear_inside(const ClosedSurface& surface, double gap, const Periods& periods,
+/// Takes out the points that the surface displaces, and lets those next to it stand around it.
+/// Looks at the image of each point that is nearest to the middle of the surface, which must be
+/// smaller than the periods.
+void clear_inside(const ClosedSurface& surface, double spacing, const Periods& periods,
                   std::vector<Vec3>& points) {
   Vec3 low = surface.points.front();
   Vec3 high = low;
@@ -30,21 +31,18 @@ void clear_inside(const ClosedSurface& surface, double gap, const Periods& perio
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  // A point that is meant to stand at this distance misses it by rounding.
-  const double nearest = gap * (1 - 1e-6);
-  std::vector<std::uint8_t> inside(points.size(), 0);
-  parallel_for(static_cast<Index>(points.size()), 256, [&](Index begin, Index end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      for_images_in(periods, points[k], low.array() - gap, high.array() + gap, [&](const auto& n) {
-        const Vec3 x = image_of(periods, points[k], n);
-        if (((x - low).array() < -gap).any() || ((x - high).array() > gap).any()) return;
-        if (contains(surface, x) || distance(surface, x) < nearest) inside[k] = 1;
-      });
+  std::vector<Vec3> shift(points.size(), Vec3::Zero());
+  if (periods.any()) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Vec3 image = image_near(periods, points[k], 0.5 * (low + high));
+      shift[k] = image - points[k];
+      points[k] = image;
     }
-  });
+  }
+  const std::vector<std::uint8_t> stays = stand_outside(surface, spacing, points);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (inside[k] == 0) points[kept++] = points[k];
+    if (stays[k] != 0) points[kept++] = points[k] - shift[k];
   }
   points.resize(kept);
 }
@@ -83,7 +81,7 @@ void parts(const Keys& root, Draft& draft) {
     const ClosedSurface surface = closed_surface_of(draft, fill.words("outside"), fill, "outside");
     if (surface.facets.empty()) continue;
     const double spacing = spacing_of(root, keys);
-    clear_inside(surface, 0.5 * spacing, periods_of(root, draft.dimension, spacing), part.points);
+    clear_inside(surface, spacing, periods_of(root, draft.dimension, spacing), part.points);
     if (part.points.empty()) fill.complain("outside", "leaves no particle");
   }
 }

@@ -1,0 +1,204 @@
+#include "sph/outer_layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+#include "base/parallel.hpp"
+#include "sph/crowd.hpp"
+
+namespace gannet {
+
+namespace {
+
+constexpr double moving_layers = 4;
+
+/// Distance of each point from the surface, negative inside; `reach` where it is further away [m].
+std::vector<double> signed_distances(const ClosedSurface& surface, double reach,
+                                     const std::vector<Vec3>& points) {
+  Vec3 low = surface.points.front();
+  Vec3 high = low;
+  for (const Vec3& p : surface.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  std::vector<double> d(points.size(), reach);
+  parallel_for(static_cast<Index>(points.size()), 256, [&](Index begin, Index end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const Vec3& x = points[k];
+      if (((x - low).array() < -reach).any() || ((x - high).array() > reach).any()) continue;
+      const double away = std::min(distance(surface, x), reach);
+      d[k] = contains(surface, x) ? -away : away;
+    }
+  });
+  return d;
+}
+
+/// Whether the surface passes between the points, half a spacing off those next to it.
+bool fits(const std::vector<double>& d, double dx) {
+  return std::ranges::all_of(d, [&](double q) { return std::abs(q) > 0.45 * dx; });
+}
+
+/// 0 for the points whose place the surface takes: as many as the volume inside asks for, the
+/// deepest first. Of a row that is equally deep and goes in part, every so manyth goes; images of
+/// each other in symmetric water, which are few, go together or stay.
+std::vector<std::uint8_t> those_that_stay(const std::vector<double>& d, double dx, int dimension) {
+  double wanted = 0;  // a cell through which the surface goes is inside in part
+  for (const double q : d) wanted += std::clamp(0.5 - q / dx, 0.0, 1.0);
+  std::vector<std::size_t> order(d.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return d[a] < d[b]; });
+  std::vector<std::uint8_t> stays(d.size(), 1);
+  auto left = static_cast<std::size_t>(std::llround(wanted));
+  for (std::size_t first = 0; first < order.size() && left > 0;) {
+    std::size_t last = first + 1;
+    while (last < order.size() && d[order[last]] - d[order[first]] < 1e-6 * dx) ++last;
+    const std::size_t n = last - first;
+    std::ranges::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+                      order.begin() + static_cast<std::ptrdiff_t>(last));
+    std::size_t take = std::min(n, left);
+    left -= take;
+    if (n <= std::size_t{1} << dimension) take = 2 * take >= n ? n : 0;
+    for (std::size_t k = 0; k < take; ++k) stays[order[first + (2 * k + 1) * n / (2 * take)]] = 0;
+    first = last;
+  }
+  return stays;
+}
+
+/// The cells that the lattice has inside of the surface, each cut into 2^d that are inside or not.
+void add_inside(const ClosedSurface& surface, const std::vector<Vec3>& cells, Crowd& crowd) {
+  const double quarter = 0.25 * crowd.dx;
+  const double V = std::pow(2 * quarter, surface.dimension);
+  const int n = 1 << surface.dimension;
+  for (const Vec3& x : cells) {
+    for (int c = 0; c < n; ++c) {
+      Vec3 part = x;
+      for (int k = 0; k < surface.dimension; ++k) part[k] += (c >> k & 1) != 0 ? quarter : -quarter;
+      if (!contains(surface, part)) continue;
+      crowd.x.push_back(part);
+      crowd.V.push_back(V);
+    }
+  }
+}
+
+/// What moves, in the order of the lattice, and what else is within reach of it.
+struct Layers {
+  std::vector<std::size_t> moving;
+  std::vector<std::size_t> others;
+  std::vector<Vec3> cells_inside;  ///< that are inside at least in part
+};
+
+Layers layers_of(const std::vector<Vec3>& lattice, const std::vector<double>& d,
+                 const std::vector<std::uint8_t>& stays, double dx, double reach) {
+  Layers layers;
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (d[k] >= reach) continue;
+    if (d[k] < dx && d[k] > -moving_layers * dx) layers.cells_inside.push_back(lattice[k]);
+    if (stays[k] == 0) continue;
+    (d[k] < moving_layers * dx ? layers.moving : layers.others).push_back(k);
+  }
+  return layers;
+}
+
+/// Places by cells of one spacing.
+class Places {
+ public:
+  explicit Places(double dx) : dx_(dx) {}
+  void add(const Vec3& x) { cells_[key(cell(x))].push_back(x); }
+  /// Whether nothing is nearer than half a spacing.
+  [[nodiscard]] bool has_room_at(const Vec3& x) const {
+    const std::array<std::int64_t, 3> c = cell(x);
+    for (int n = 0; n < 27; ++n) {
+      const auto found =
+          cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
+      if (found == cells_.end()) continue;
+      for (const Vec3& y : found->second) {
+        if ((x - y).norm() < 0.5 * dx_) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] std::array<std::int64_t, 3> cell(const Vec3& x) const {
+    return {std::llround(x.x() / dx_), std::llround(x.y() / dx_), std::llround(x.z() / dx_)};
+  }
+  static std::int64_t key(const std::array<std::int64_t, 3>& c) {
+    return ((c[0] & 0x1fffff) << 42) | ((c[1] & 0x1fffff) << 21) | (c[2] & 0x1fffff);
+  }
+  double dx_;
+  std::unordered_map<std::int64_t, std::vector<Vec3>> cells_;
+};
+
+/// The lattice goes on beyond its ends, where nothing of it is within reach of what moves.
+void add_beyond(const std::vector<Vec3>& lattice, const std::vector<double>& d, double reach,
+                const Layers& layers, Crowd& crowd) {
+  Places places(crowd.dx);
+  for (std::size_t k = 0; k < lattice.size(); ++k) {
+    if (std::abs(d[k]) < reach) places.add(lattice[k]);
+  }
+  const int n = static_cast<int>(std::ceil(crowd.kernel.reach() / crowd.dx));
+  const int n_z = crowd.surface->dimension == 3 ? n : 0;
+  const double V = std::pow(crowd.dx, crowd.surface->dimension);
+  for (const std::size_t k : layers.moving) {
+    for (int c = -n_z; c <= n_z; ++c) {
+      for (int b = -n; b <= n; ++b) {
+        for (int a = -n; a <= n; ++a) {
+          const Vec3 x = lattice[k] + crowd.dx * Vec3(a, b, c);
+          if (!places.has_room_at(x)) continue;
+          places.add(x);
+          crowd.x.push_back(x);
+          crowd.V.push_back(V);
+        }
+      }
+    }
+  }
+}
+
+/// Points nearer than half a spacing begin there, outside.
+void push_out(Crowd& crowd, std::vector<double>& d) {
+  for (std::size_t i = 0; i < crowd.n_moving; ++i) {
+    if (d[i] >= 0.5 * crowd.dx) continue;
+    Vec3 foot = crowd.surface->points.front();
+    for (std::size_t f = 0; f < crowd.surface->facets.size(); ++f) {
+      const Vec3 p = nearest_on_facet(*crowd.surface, f, crowd.x[i]);
+      if ((p - crowd.x[i]).squaredNorm() < (foot - crowd.x[i]).squaredNorm()) foot = p;
+    }
+    if (d[i] == 0) continue;
+    crowd.x[i] = foot + 0.5 * crowd.dx / d[i] * (crowd.x[i] - foot);
+    d[i] = 0.5 * crowd.dx;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> stand_outside(const ClosedSurface& surface, double dx,
+                                        std::vector<Vec3>& lattice) {
+  if (lattice.empty()) return {};
+  Crowd crowd = crowd_beside(surface, dx);
+  const double reach = moving_layers * dx + crowd.kernel.reach() + dx;
+  const std::vector<double> d = signed_distances(surface, reach, lattice);
+  const std::vector<std::uint8_t> stays = those_that_stay(d, dx, surface.dimension);
+  if (fits(d, dx)) return stays;
+  const Layers layers = layers_of(lattice, d, stays, dx, reach);
+  std::vector<double> distances;
+  for (const std::size_t k : layers.moving) {
+    crowd.x.push_back(lattice[k]);
+    distances.push_back(d[k]);
+  }
+  crowd.n_moving = crowd.x.size();
+  for (const std::size_t k : layers.others) crowd.x.push_back(lattice[k]);
+  crowd.V.assign(crowd.x.size(), std::pow(dx, surface.dimension));
+  add_inside(surface, layers.cells_inside, crowd);
+  add_beyond(lattice, d, reach, layers, crowd);
+  push_out(crowd, distances);
+  find_facets(crowd, distances);
+  spread_out(crowd);
+  for (std::size_t i = 0; i < crowd.n_moving; ++i) lattice[layers.moving[i]] = crowd.x[i];
+  return stays;
+}
+
+}  // namespace gannet

@@ -1,0 +1,110 @@
+#include "sph/outer_layers.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "kernel/smoothing_kernel.hpp"
+#include "sph/inner_layers.hpp"
+
+using namespace gannet;
+
+namespace {
+
+ClosedSurface polygon(const std::vector<Vec3>& points) {
+  ClosedSurface surface{.dimension = 2};
+  std::vector<Index> lines;
+  const auto n = static_cast<Index>(points.size());
+  for (Index k = 0; k < n; ++k) lines.insert(lines.end(), {k, (k + 1) % n});
+  add_boundary(points, lines, 2, false, surface);
+  REQUIRE(close_surface(surface).empty());
+  return surface;
+}
+
+ClosedSurface circle(const Vec3& centre, double R) {
+  std::vector<Vec3> points;
+  for (int k = 0; k < 200; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 200;
+    points.push_back(centre + R * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  return polygon(points);
+}
+
+/// A lattice from -2 to 2 in x and from -2 to 0 in y.
+std::vector<Vec3> lattice(double dx) {
+  std::vector<Vec3> x;
+  const int n = static_cast<int>(std::lround(2 / dx));
+  for (int j = -n; j < 0; ++j) {
+    for (int i = -n; i < n; ++i) x.emplace_back((i + 0.5) * dx, (j + 0.5) * dx, 0);
+  }
+  return x;
+}
+
+std::vector<Vec3> kept(const std::vector<Vec3>& x, const std::vector<std::uint8_t>& stays) {
+  std::vector<Vec3> left;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (stays[k] != 0) left.push_back(x[k]);
+  }
+  return left;
+}
+
+}  // namespace
+
+TEST_CASE("outer layers: a lattice that fits a box is left as it is", "[sph]") {
+  const double dx = 0.1;
+  const std::vector<Vec3> before = lattice(dx);
+  std::vector<Vec3> x = before;
+  const auto stays =
+      stand_outside(polygon({{-1, -0.5, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
+  CHECK((x == before));
+  CHECK(std::ranges::count(stays, 0) == 20 * 5);
+}
+
+TEST_CASE("outer layers: of a row that a face cuts goes what the face cuts off", "[sph]") {
+  const double dx = 0.1;
+  for (const double depth : {0.52, 0.57, 0.63}) {
+    std::vector<Vec3> x = lattice(dx);
+    const auto stays =
+        stand_outside(polygon({{-1, -depth, 0}, {1, -depth, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
+    const auto gone = static_cast<double>(std::ranges::count(stays, 0));
+    CHECK(gone == Approx(2 * depth / (dx * dx)).margin(1));
+  }
+}
+
+TEST_CASE("outer layers: around a circle at the surface stands as much water as there is room for",
+          "[sph]") {
+  const double dx = 0.1;
+  for (const double y : {-0.25, 0.03, 0.25}) {
+    const ClosedSurface surface = circle({0, y, 0}, 1);
+    std::vector<Vec3> x = lattice(dx);
+    const auto stays = stand_outside(surface, dx, x);
+    // The segment below y = 0.
+    const double area = std::acos(y) - y * std::sqrt(1 - y * y);
+    CHECK(static_cast<double>(std::ranges::count(stays, 0)) * dx * dx ==
+          Approx(area).margin(1.5 * dx * dx));
+    const std::vector<Vec3> water = kept(x, stays);
+    double nearest = 1e9;
+    double highest = -1e9;
+    for (const Vec3& p : water) {
+      CHECK_FALSE(contains(surface, p));
+      nearest = std::min(nearest, distance(surface, p));
+      highest = std::max(highest, p.y());
+    }
+    CHECK(nearest > 0.49 * dx);
+    CHECK(highest < -0.3 * dx);  // the free surface stays where it was: half a spacing above
+    // With the layers inside, the crowd is even below the surface.
+    const std::vector<Vec3> wall = inner_layers(surface, dx, 3);
+    const SmoothingKernel kernel(KernelType::quintic_spline, 2, 1.25 * dx);
+    double most = 0;
+    for (const Vec3& p : water) {
+      if (p.y() > -kernel.reach() || distance(surface, p) > 4 * dx || p.y() < -1.6) continue;
+      double sum = 0;
+      for (const auto* all : {&water, &wall}) {
+        for (const Vec3& q : *all) sum += dx * dx * kernel.W((p - q).norm());
+      }
+      most = std::max(most, std::abs(sum - 1));
+    }
+    CHECK(most < 0.07);
+  }
+}
