@@ -57,7 +57,7 @@ TEST_CASE("heave decay: the table of linear theory in the tank of the case", "[.
 
 TEST_CASE("heave decay: extremes of linear theory in tanks of several sizes", "[.tanks]") {
   for (const auto& [depth, width] : std::vector<std::pair<double, double>>{
-           {4, 16}, {4, 24}, {4, 60}, {6, 60}, {8, 60}, {20, 80}, {20, 120}}) {
+           {4, 16}, {4, 24}, {4, 60}, {6, 60}, {8, 60}, {14, 44}, {20, 80}, {20, 120}}) {
     fmt::print("depth {:g} R, width {:g} R:", depth, width);
     for (const auto& [tau, x] : extremes_of(linear_heave(depth, width, 11.5))) {
       fmt::print("  {:.3f} at {:.2f}", x, tau);
