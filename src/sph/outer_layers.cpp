@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 
@@ -42,28 +43,56 @@ bool fits(const std::vector<double>& d, double dx) {
   return std::ranges::all_of(d, [&](double q) { return std::abs(q) > 0.45 * dx; });
 }
 
+/// Parts points into those that are images of each other about the middle of all of them, in the
+/// order of the first of each.
+std::vector<std::vector<std::size_t>> images_among(const std::vector<std::size_t>& points,
+                                                   const std::vector<Vec3>& lattice, double dx) {
+  Vec3 middle = Vec3::Zero();
+  for (const std::size_t k : points) middle += lattice[k] / static_cast<double>(points.size());
+  std::map<std::array<std::int64_t, 3>, std::size_t> known;
+  std::vector<std::vector<std::size_t>> images;
+  for (const std::size_t k : points) {
+    const Vec3 r = (lattice[k] - middle) / (1e-3 * dx);
+    const std::array<std::int64_t, 3> key{std::llround(std::abs(r.x())),
+                                          std::llround(std::abs(r.y())),
+                                          std::llround(std::abs(r.z()))};
+    const auto [at, is_new] = known.emplace(key, images.size());
+    if (is_new) images.emplace_back();
+    images[at->second].push_back(k);
+  }
+  return images;
+}
+
 /// 0 for the points whose place the surface takes: as many as the volume inside asks for, the
-/// deepest first. Of a row that is equally deep and goes in part, every so manyth goes; images of
-/// each other in symmetric water, which are few, go together or stay.
-std::vector<std::uint8_t> those_that_stay(const std::vector<double>& d, double dx, int dimension) {
+/// deepest first. Of those that are equally deep and go in part, evenly many go everywhere, images
+/// of each other together.
+std::vector<std::uint8_t> those_that_stay(const std::vector<Vec3>& lattice,
+                                          const std::vector<double>& d, double dx) {
   double wanted = 0;  // a cell through which the surface goes is inside in part
   for (const double q : d) wanted += std::clamp(0.5 - q / dx, 0.0, 1.0);
   std::vector<std::size_t> order(d.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return d[a] < d[b]; });
   std::vector<std::uint8_t> stays(d.size(), 1);
-  auto left = static_cast<std::size_t>(std::llround(wanted));
-  for (std::size_t first = 0; first < order.size() && left > 0;) {
-    std::size_t last = first + 1;
-    while (last < order.size() && d[order[last]] - d[order[first]] < 1e-6 * dx) ++last;
-    const std::size_t n = last - first;
-    std::ranges::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
-                      order.begin() + static_cast<std::ptrdiff_t>(last));
-    std::size_t take = std::min(n, left);
-    left -= take;
-    if (n <= std::size_t{1} << dimension) take = 2 * take >= n ? n : 0;
-    for (std::size_t k = 0; k < take; ++k) stays[order[first + (2 * k + 1) * n / (2 * take)]] = 0;
-    first = last;
+  for (std::size_t first = 0; first < order.size() && wanted > 0;) {
+    std::vector<std::size_t> equal{order[first]};
+    while (first + equal.size() < order.size() &&
+           d[order[first + equal.size()]] - d[order[first]] < 1e-6 * dx) {
+      equal.push_back(order[first + equal.size()]);
+    }
+    std::ranges::sort(equal);
+    const auto n = static_cast<double>(equal.size());
+    const double share = std::min(wanted / n, 1.0);
+    double due = 0;
+    for (const std::vector<std::size_t>& images : images_among(equal, lattice, dx)) {
+      const auto size = static_cast<double>(images.size());
+      due += share * size;
+      if (due < 0.5 * size) continue;
+      due -= size;
+      for (const std::size_t k : images) stays[k] = 0;
+    }
+    wanted -= n;
+    first += equal.size();
   }
   return stays;
 }
@@ -181,7 +210,7 @@ std::vector<std::uint8_t> stand_outside(const ClosedSurface& surface, double dx,
   Crowd crowd = crowd_beside(surface, dx);
   const double reach = moving_layers * dx + crowd.kernel.reach() + dx;
   const std::vector<double> d = signed_distances(surface, reach, lattice);
-  const std::vector<std::uint8_t> stays = those_that_stay(d, dx, surface.dimension);
+  const std::vector<std::uint8_t> stays = those_that_stay(lattice, d, dx);
   if (fits(d, dx)) return stays;
   const Layers layers = layers_of(lattice, d, stays, dx, reach);
   std::vector<double> distances;
