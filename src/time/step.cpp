@@ -45,18 +45,24 @@ void run(std::span<Model* const> level, Stage stage) {
 /// Shares of a step below which a difference is rounding.
 constexpr double rounding_of_step = 1e-9;
 
+/// What a difference of two times about t may be off by [s].
+double rounding_of(double t) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+
 /// The smallest whole number of substeps in the time that is left. That time is a difference of
 /// times, with their rounding: what it adds to a whole number asks for no substep more.
 double substeps_for(double left, double allowed, double t) {
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(t) / allowed;
-  return std::ceil(left / allowed * (1 - rounding_of_step) - rounding);
+  return std::ceil((left * (1 - rounding_of_step) - rounding_of(t)) / allowed);
 }
 
-/// Whether the substeps that a model still has to do may be as long as the last one. Substeps that
-/// were found anew from the time left would gather its rounding: late in a run, with many of them,
-/// the last one of every coarse step would be cut in two, which is a resonance.
+/// Whether the substeps that a model still has to do may be as long as the last one: they are, by
+/// no more than substeps_for() lets them be longer than its vote. Substeps that were found anew
+/// from the time left would gather its rounding: late in a run, with many of them, the last one of
+/// every coarse step would be cut in two, which is a resonance.
 bool may_go_on(const Model& model) {
-  return model.substeps_left > 0 && model.step.dt <= model.vote.dt * (1 + 2 * rounding_of_step);
+  if (model.substeps_left == 0) return false;
+  const double longest =
+      model.vote.dt * (1 + 2 * rounding_of_step) + rounding_of(model.step.t) / model.substeps_left;
+  return model.step.dt <= longest;
 }
 
 void advance_time(std::span<Model* const> level) {
