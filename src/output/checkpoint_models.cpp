@@ -57,25 +57,29 @@ void shift_velocities(const CheckpointHead::ModelState& model, double dt, Nodes&
   }
 }
 
-/// Writes an entry of three numbers into a field of the link; one that has no such field goes
-/// without.
-void set_entry(Scene& scene, const std::string& field, std::size_t k, const Vec3& value) {
-  const auto found = std::ranges::find(scene.fields, field, &Field::name);
-  if (found == scene.fields.end()) return;
+Field* field_of(Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find(scene.fields, name, &Field::name);
+  return found == scene.fields.end() ? nullptr : &*found;
+}
+
+void set_entry(Field* field, std::size_t k, const Vec3& value) {
+  if (field == nullptr) return;
   for (int d = 0; d < 3; ++d) {
-    *reinterpret_cast<double*>(found->at(static_cast<Index>(k), d)) = value[d];
+    *reinterpret_cast<double*>(field->at(static_cast<Index>(k), d)) = value[d];
   }
 }
 
-/// Where the nodes of a link were a step before, and how far they have turned since.
+/// Where the nodes of a link were a step before, and how far they have turned since, which links
+/// of elements want to know.
 void begin_path(const Link& link, double dt, Scene& scene) {
   const Nodes& nodes = scene.nodes;
-  const std::string name = "link." + link.name;
+  Field* x_level = field_of(scene, "link." + link.name + ".x_level");
+  Field* turned = field_of(scene, "link." + link.name + ".turned");
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(link.nodes[k]);
-    set_entry(scene, name + ".x_level", k, xyz(nodes.x[i]) - dt * xyz(nodes.v[i]));
+    set_entry(x_level, k, xyz(nodes.x[i]) - dt * xyz(nodes.v[i]));
     if (!nodes.rotating.contains(link.nodes[k])) continue;
-    set_entry(scene, name + ".turned", k, dt * xyz(nodes.omega[i]));
+    set_entry(turned, k, dt * xyz(nodes.omega[i]));
   }
 }
 

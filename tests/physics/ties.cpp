@@ -206,7 +206,7 @@ TEST_CASE("ties: a checkpoint of one model goes on in two without a jolt", "[phy
   double most = 0;
   run_until(*two, 0.1, [&] { most = std::max(most, std::abs(two->models.ledger.held() / E - 1)); });
   fmt::print("one model goes on in two: energy {:.2g}\n", most);
-  CHECK(most < 5e-3);
+  CHECK(most < 2e-3);  // in two models from the start energy swings by 4e-3
 }
 
 TEST_CASE("ties: the force of a tie is what it carries, and it lets go where it is too large",
