@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -70,39 +71,53 @@ struct BodyStiffness {
   }
 };
 
-const Carrier* carrier_at(const ContactInput& in, Index leader) {
-  if (in.carriers == nullptr) return nullptr;
-  const auto found = std::ranges::find(in.carriers->list, leader, &Carrier::node);
-  return found == in.carriers->list.end() ? nullptr : &*found;
+using BodyStiffnesses = std::map<Index, BodyStiffness>;  // by leader
+
+BodyStiffnesses stiffness_of_bodies(const ContactInput& in) {
+  BodyStiffnesses bodies;
+  if (in.carriers == nullptr) return bodies;
+  for (const Carrier& body : in.carriers->list) {
+    if (body.node < 0) continue;
+    bodies.try_emplace(body.node, body, xyz(in.nodes->x[static_cast<std::size_t>(body.node)]));
+  }
+  return bodies;
 }
 
-/// The leader of a node where it is a rigid body, else -1.
-Index body_of(const ContactInput& in, Index node) {
-  const Index leader = in.followers->leader_of(node);
-  return leader >= 0 && carrier_at(in, leader) != nullptr ? leader : -1;
+/// Adds row r to a body by the share of the corners that belong to it: sum N_c b_c over them is
+/// N_B b at their own foot.
+void add_share(const ContactInput& in, const ContactLaw& law, std::size_t r, Index leader,
+               BodyStiffness& body) {
+  const auto of_corner = [&](std::size_t i) -> Eigen::Vector4d {
+    if (in.followers->leader_of(in.surface->node[i]) != leader) return Eigen::Vector4d::Zero();
+    return xyz(in.surface->x[i]).homogeneous();
+  };
+  const Gap& gap = in.gaps[r];
+  const auto sum = at_foot<Eigen::Vector4d>(*in.surface, gap, of_corner);
+  const double share = sum[3];
+  if (!(share > 0)) return;
+  const double k = share * stiffness_of_row(in, law, r);
+  const Vec3 foot = sum.head<3>() / share;
+  if (law.friction > 0) {
+    for (Eigen::Index d = 0; d < 3; ++d) body.add(k, foot, Vec3::Unit(d));
+  } else {
+    body.add(k, foot, gap.normal);
+  }
 }
 
-/// Raises the rate to that of the rigid bodies that segments belong to.
-void consider_bodies(const ContactInput& in, const ContactLaw& law, ContactRate& rate) {
-  std::map<Index, BodyStiffness> bodies;  // by leader
+/// Raises the rate to that of the rigid bodies that segments belong to, wholly or in part.
+void consider_bodies(const ContactInput& in, const ContactLaw& law, BodyStiffnesses& bodies,
+                     ContactRate& rate) {
   for (std::size_t r = 0; r < static_cast<std::size_t>(in.candidates->n_rows()); ++r) {
-    const Gap& gap = in.gaps[r];
-    if (gap.segment < 0) continue;
-    const Segment& g = in.surface->segments[static_cast<std::size_t>(gap.segment)];
-    const Index leader = body_of(in, in.surface->node[static_cast<std::size_t>(g.corner[0])]);
-    if (leader < 0) continue;
-    auto body = bodies.find(leader);
-    if (body == bodies.end()) {
-      const Vec3 centre = xyz(in.nodes->x[static_cast<std::size_t>(leader)]);
-      body = bodies.try_emplace(leader, *carrier_at(in, leader), centre).first;
-    }
-    const double k = stiffness_of_row(in, law, r);
-    const Vec3 foot =
-        at_foot<Vec3>(*in.surface, gap, [&](std::size_t i) { return xyz(in.surface->x[i]); });
-    if (law.friction > 0) {
-      for (Eigen::Index d = 0; d < 3; ++d) body->second.add(k, foot, Vec3::Unit(d));
-    } else {
-      body->second.add(k, foot, gap.normal);
+    if (in.gaps[r].segment < 0) continue;
+    const Segment& g = in.surface->segments[static_cast<std::size_t>(in.gaps[r].segment)];
+    std::array<Index, 4> seen{-1, -1, -1, -1};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(g.n_corners); ++c) {
+      const auto corner = static_cast<std::size_t>(g.corner[c]);
+      const Index leader = in.followers->leader_of(in.surface->node[corner]);
+      if (leader < 0 || std::ranges::find(seen, leader) != seen.end()) continue;
+      seen[c] = leader;
+      const auto body = bodies.find(leader);
+      if (body != bodies.end()) add_share(in, law, r, leader, body->second);
     }
   }
   for (const auto& [leader, body] : bodies) {
@@ -113,12 +128,12 @@ void consider_bodies(const ContactInput& in, const ContactLaw& law, ContactRate&
 
 /// The same of other leaders, of which only the inverse masses of their followers are known.
 void consider_leaders(const ContactInput& in, std::span<const double> stiffness,
-                      ContactRate& rate) {
+                      const BodyStiffnesses& bodies, ContactRate& rate) {
   std::map<Index, double> omega2;  // by leader
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const Index node = in.surface->node[i];
     const Index leader = in.followers->leader_of(node);
-    if (leader < 0 || body_of(in, node) >= 0) continue;
+    if (leader < 0 || bodies.contains(leader)) continue;
     omega2[leader] += 2 * stiffness[i] * in.followers->inverse_mass[static_cast<std::size_t>(node)];
   }
   for (const auto& [leader, value] : omega2) {
@@ -222,8 +237,9 @@ ContactRate largest_rate(const ContactInput& in, const ContactLaw& law,
     consider(stiffness[i], static_cast<std::size_t>(in.surface->node[i]));
   }
   if (in.followers == nullptr || in.followers->leader.empty()) return rate;
-  consider_bodies(in, law, rate);
-  consider_leaders(in, stiffness, rate);
+  BodyStiffnesses bodies = stiffness_of_bodies(in);
+  consider_bodies(in, law, bodies, rate);
+  consider_leaders(in, stiffness, bodies, rate);
   return rate;
 }
 

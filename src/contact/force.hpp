@@ -95,10 +95,11 @@ struct ContactRate {
 /// contact stiffness K = sum k g g^T, g = (n, -N_1 n, ...), has the absolute sum k (1 + sum N) =
 /// 2k, row i of a segment node sum_p k N_i (1 + sum N) = 2 S_i, so
 ///   omega^2 <= max(max_p 2 k_p / m_p, max_i 2 S_i / m_i).
-/// Nodes that follow one leader move together, and count as one. A pair's k (e - b)(e - b)^T, e its
-/// point and b what it moves of the leader, is at most 2 k (e e^T + b b^T), and b b^T of a rigid
-/// body is a matrix of 6 x 6,
-///   omega^2 <= 2 lambda_max(sum_p k_p b_p b_p^T),   b = (d/M^(1/2), R (r x d)),
+/// Nodes that follow one leader move together, and count as one. A row's g = e - sum_j B_j, e its
+/// point, B_j = sum N_c b_c what its corners of leader j (or one free corner) move, N_j = sum N_c;
+/// as sum N_j = 1, k g g^T is at most 2 k (e e^T + sum_j B_j B_j^T/N_j) (Cauchy and Schwarz). For a
+/// rigid body that is a matrix of 6 x 6,
+///   omega^2 <= 2 lambda_max(sum_p k_p B_p B_p^T/N_p),   b = (d/M^(1/2), R (r x d)),
 /// d the normal, or with friction each of three directions, r from the centre, R^2 the inverse
 /// inertia. Of other leaders only w_i is known, and the largest eigenvalue of a sum of b b^T is at
 /// most its trace,
