@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <unordered_map>
@@ -43,22 +44,19 @@ bool fits(const std::vector<double>& d, double dx) {
   return std::ranges::all_of(d, [&](double q) { return std::abs(q) > 0.45 * dx; });
 }
 
-/// Parts points into those that are images of each other about the middle of all of them, in the
-/// order of the first of each.
-std::vector<std::vector<std::size_t>> images_among(const std::vector<std::size_t>& points,
-                                                   const std::vector<Vec3>& lattice, double dx) {
+/// Parts points into those that are images of each other about the middle of all of them, from the
+/// ends to the middle, whatever the order of the points.
+auto images_among(const std::vector<std::size_t>& points, const std::vector<Vec3>& lattice,
+                  double dx) {
   Vec3 middle = Vec3::Zero();
   for (const std::size_t k : points) middle += lattice[k] / static_cast<double>(points.size());
-  std::map<std::array<std::int64_t, 3>, std::size_t> known;
-  std::vector<std::vector<std::size_t>> images;
+  std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>, std::greater<>> images;
   for (const std::size_t k : points) {
     const Vec3 r = (lattice[k] - middle) / (1e-3 * dx);
-    const std::array<std::int64_t, 3> key{std::llround(std::abs(r.x())),
+    const std::array<std::int64_t, 3> key{std::llround(std::abs(r.z())),
                                           std::llround(std::abs(r.y())),
-                                          std::llround(std::abs(r.z()))};
-    const auto [at, is_new] = known.emplace(key, images.size());
-    if (is_new) images.emplace_back();
-    images[at->second].push_back(k);
+                                          std::llround(std::abs(r.x()))};
+    images[key].push_back(k);
   }
   return images;
 }
@@ -84,7 +82,7 @@ std::vector<std::uint8_t> those_that_stay(const std::vector<Vec3>& lattice,
     const auto n = static_cast<double>(equal.size());
     const double share = std::min(wanted / n, 1.0);
     double due = 0;
-    for (const std::vector<std::size_t>& images : images_among(equal, lattice, dx)) {
+    for (const auto& [place, images] : images_among(equal, lattice, dx)) {
       const auto size = static_cast<double>(images.size());
       due += share * size;
       if (due < 0.5 * size) continue;
@@ -187,31 +185,53 @@ void add_beyond(const std::vector<Vec3>& lattice, const std::vector<double>& d, 
   }
 }
 
-/// Points nearer than half a spacing begin there, outside.
+/// Unit normal of a facet, outwards.
+Vec3 normal_of(const ClosedSurface& surface, std::size_t facet) {
+  const auto& [a, b, c] = surface.facets[facet];
+  const auto corner = [&](Index k) { return surface.points[static_cast<std::size_t>(k)]; };
+  const Vec3 along = corner(b) - corner(a);
+  if (surface.dimension == 2) return Vec3(along.y(), -along.x(), 0).normalized();
+  return along.cross(corner(c) - corner(a)).normalized();
+}
+
+/// Points nearer than half a spacing begin there, outside; those on the surface, of which side and
+/// direction are rounding, along the normal.
 void push_out(Crowd& crowd, std::vector<double>& d) {
   for (std::size_t i = 0; i < crowd.n_moving; ++i) {
     if (d[i] >= 0.5 * crowd.dx) continue;
     Vec3 foot = crowd.surface->points.front();
+    std::size_t facet = 0;
     for (std::size_t f = 0; f < crowd.surface->facets.size(); ++f) {
       const Vec3 p = nearest_on_facet(*crowd.surface, f, crowd.x[i]);
-      if ((p - crowd.x[i]).squaredNorm() < (foot - crowd.x[i]).squaredNorm()) foot = p;
+      if ((p - crowd.x[i]).squaredNorm() >= (foot - crowd.x[i]).squaredNorm()) continue;
+      foot = p;
+      facet = f;
     }
-    if (d[i] == 0) continue;
-    crowd.x[i] = foot + 0.5 * crowd.dx / d[i] * (crowd.x[i] - foot);
+    const Vec3 outwards = std::abs(d[i]) < 1e-6 * crowd.dx ? normal_of(*crowd.surface, facet)
+                                                           : Vec3((crowd.x[i] - foot) / d[i]);
+    crowd.x[i] = foot + 0.5 * crowd.dx * outwards;
     d[i] = 0.5 * crowd.dx;
   }
 }
 
 }  // namespace
 
+double reach_outside(const ClosedSurface& surface, double dx) {
+  return moving_layers * dx + crowd_beside(surface, dx).kernel.reach() + dx;
+}
+
 std::vector<std::uint8_t> stand_outside(const ClosedSurface& surface, double dx,
                                         std::vector<Vec3>& lattice) {
   if (lattice.empty()) return {};
   Crowd crowd = crowd_beside(surface, dx);
-  const double reach = moving_layers * dx + crowd.kernel.reach() + dx;
+  const double reach = reach_outside(surface, dx);
   const std::vector<double> d = signed_distances(surface, reach, lattice);
-  const std::vector<std::uint8_t> stays = those_that_stay(lattice, d, dx);
-  if (fits(d, dx)) return stays;
+  std::vector<std::uint8_t> stays(d.size());
+  if (fits(d, dx)) {
+    std::ranges::transform(d, stays.begin(), [](double q) { return q > 0 ? 1 : 0; });
+    return stays;
+  }
+  stays = those_that_stay(lattice, d, dx);
   const Layers layers = layers_of(lattice, d, stays, dx, reach);
   std::vector<double> distances;
   for (const std::size_t k : layers.moving) {

@@ -16,6 +16,9 @@
 
 namespace gannet {
 
+/// How far from a surface points matter to those that stand_outside() moves [m].
+double reach_outside(const ClosedSurface& surface, double dx);
+
 /// Moves points of a lattice next to a surface to where they stand outside of it, and returns 1 for
 /// each point that stays, 0 for those whose place the surface takes. lattice: points [m], one a
 /// cell of about dx^d; dx: their spacing [m], > 0. The same ones for any number of threads. Needs

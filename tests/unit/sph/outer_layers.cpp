@@ -61,6 +61,35 @@ TEST_CASE("outer layers: a lattice that fits a box is left as it is", "[sph]") {
   CHECK(std::ranges::count(stays, 0) == 20 * 5);
 }
 
+TEST_CASE("outer layers: a lattice that nearly fits keeps nothing inside and gets no holes",
+          "[sph]") {
+  const double dx = 0.1;
+  for (const double misfit : {-0.04, 0.04}) {
+    const double depth = 0.5 + misfit * dx;
+    const ClosedSurface surface =
+        polygon({{-4, -depth, 0}, {4, -depth, 0}, {4, 0.5, 0}, {-4, 0.5, 0}});
+    std::vector<Vec3> x;
+    for (int j = -20; j < 0; ++j) {
+      for (int i = -60; i < 60; ++i) x.emplace_back((i + 0.5) * dx, (j + 0.5) * dx, 0);
+    }
+    const auto stays = stand_outside(surface, dx, x);
+    CHECK(std::ranges::count(stays, 0) == 80 * 5);
+    for (const Vec3& p : kept(x, stays)) CHECK_FALSE(contains(surface, p));
+  }
+}
+
+TEST_CASE("outer layers: points on a face stand outside of it", "[sph]") {
+  const double dx = 0.1;
+  const ClosedSurface surface =
+      polygon({{-1, -0.55, 0}, {1, -0.55, 0}, {1, 0.5, 0}, {-1, 0.5, 0}});
+  std::vector<Vec3> x = lattice(dx);
+  const auto stays = stand_outside(surface, dx, x);
+  for (const Vec3& p : kept(x, stays)) {
+    CHECK_FALSE(contains(surface, p));
+    CHECK(distance(surface, p) > 0.499 * dx);
+  }
+}
+
 TEST_CASE("outer layers: of a row that a face cuts goes what the face cuts off", "[sph]") {
   const double dx = 0.1;
   for (const double depth : {0.52, 0.57, 0.63}) {
