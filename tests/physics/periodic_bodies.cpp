@@ -95,3 +95,69 @@ TEST_CASE("periodic: a moored body crosses the border as if it were not there", 
   compare(true, false);
   compare(false, true);
 }
+
+namespace {
+
+/// Water beside a hull of a diamond, which no lattice fits, in a period of 2 m in x, sorted by
+/// height and then along x, the middle of the hull at 0 or at the border.
+std::vector<Vec3> water_beside(double at, double half_length) {
+  const std::string text = fmt::format(R"case(gannet: 1
+dimension: 2
+let: {{dx: 0.0625, s: {0}, a: {1}}}
+materials: {{water: {{density: 1000, c0: 20 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: dx}}
+    fill: {{box: {{from: [-1, -1, 0], to: [1, 0, 0]}}, outside: hull}}
+  hull:
+    rigid_surface: {{}}
+    shape: {{polyline: {{points: [["s-a", 0, 0], ["s", -0.3, 0], ["s+a", 0, 0], ["s", 0.3, 0], ["s-a", 0, 0]], elements: [8, 8, 8, 8]}}}}
+bodies: {{hull: {{parts: hull, density: 500}}}}
+boundaries: {{sea: {{periodic: {{x: [-1, 1]}}}}}}
+output: {{until: 1 s, checkpoint: never}}
+)case",
+                                       at, half_length);
+  const auto s = make_simulation_of_text(text);
+  std::vector<Vec3> water;
+  for_particles(s->scene, [&](std::size_t, const Vec3& x, const Vec3&) {
+    CHECK(std::abs(x.x()) <= 1);
+    water.push_back(x);
+  });
+  return water;
+}
+
+}  // namespace
+
+TEST_CASE("periodic bodies: water around a hull across the border is that around one in the middle",
+          "[scene]") {
+  const std::vector<Vec3> inside = water_beside(0, 0.37);
+  const std::vector<Vec3> across = water_beside(1, 0.37);
+  REQUIRE(across.size() == inside.size());
+  for (const Vec3& x : inside) {
+    const Vec3 image(x.x() < 0 ? x.x() + 1 : x.x() - 1, x.y(), 0);
+    double nearest = 1;
+    for (const Vec3& y : across) nearest = std::min(nearest, (y - image).norm());
+    CHECK(nearest < 1e-6 * 0.0625);
+  }
+}
+
+TEST_CASE("periodic bodies: water is cut off plainly by a hull that meets its images", "[scene]") {
+  // Longer than the period: what is left stands on the lattice, half a spacing off every image.
+  const Vec3 normal = Vec3(0.3, 1.2, 0).normalized();
+  const auto depth = [&](double x) { return std::max(0.3 * (1 - std::abs(x) / 1.2), 0.0); };
+  std::size_t expected = 0;
+  for (int i = -16; i < 16; ++i) {
+    for (int j = -16; j < 0; ++j) {
+      const Vec3 x((i + 0.5) * 0.0625, (j + 0.5) * 0.0625, 0);
+      const double below = -x.y() - depth(x.x());
+      expected += below * normal.y() >= 0.03125 ? 1 : 0;
+    }
+  }
+  const std::vector<Vec3> water = water_beside(0, 1.2);
+  CHECK(water.size() == expected);
+  for (const Vec3& x : water) {
+    const Vec3 cell = x / 0.0625 - Vec3(0.5, 0.5, 0);
+    CHECK(std::abs(cell.x() - std::round(cell.x())) < 1e-9);
+    CHECK(std::abs(cell.y() - std::round(cell.y())) < 1e-9);
+  }
+}
