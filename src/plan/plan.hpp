@@ -42,7 +42,9 @@ struct Operation;
 struct Vote {
   double dt = std::numeric_limits<double>::infinity();  ///< [s]
   std::string who;                                      ///< "panel: element 1207"
-  const Operation* by = nullptr;  ///< who casts it, where `who` was not yet asked for
+  /// Who casts it, where `who` was not yet asked for. Operations stay where they are, once in a
+  /// plan: its stages are deques, and nothing is taken out of them.
+  const Operation* by = nullptr;
   /// Who limits the step. Asked for only where it is read: words cost more than a short step.
   [[nodiscard]] std::string limited_by() const;
 };
