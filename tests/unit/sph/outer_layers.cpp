@@ -80,8 +80,7 @@ TEST_CASE("outer layers: a lattice that nearly fits keeps nothing inside and get
 
 TEST_CASE("outer layers: points on a face stand outside of it", "[sph]") {
   const double dx = 0.1;
-  const ClosedSurface surface =
-      polygon({{-1, -0.55, 0}, {1, -0.55, 0}, {1, 0.5, 0}, {-1, 0.5, 0}});
+  const ClosedSurface surface = polygon({{-1, -0.55, 0}, {1, -0.55, 0}, {1, 0.5, 0}, {-1, 0.5, 0}});
   std::vector<Vec3> x = lattice(dx);
   const auto stays = stand_outside(surface, dx, x);
   for (const Vec3& p : kept(x, stays)) {
@@ -97,7 +96,8 @@ TEST_CASE("outer layers: of a row that a face cuts goes what the face cuts off",
     const auto stays =
         stand_outside(polygon({{-1, -depth, 0}, {1, -depth, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
     const auto gone = static_cast<double>(std::ranges::count(stays, 0));
-    CHECK(gone == Approx(2 * depth / (dx * dx)).margin(1.5));
+    // The sum over cells is exact for a plane face; a row goes by pairs, half a pair is left over.
+    CHECK(gone == Approx(2 * depth / (dx * dx)).margin(1 + 1e-6));
     Vec3 sum = Vec3::Zero();
     for (const Vec3& p : kept(x, stays)) sum += p;
     CHECK(std::abs(sum.x()) < 1e-3 * dx);  // the same on both sides, as it was
@@ -113,8 +113,9 @@ TEST_CASE("outer layers: around a circle at the surface stands as much water as 
     const auto stays = stand_outside(surface, dx, x);
     // The segment below y = 0.
     const double area = std::acos(y) - y * std::sqrt(1 - y * y);
+    // Points go by pairs: half a pair is left over.
     CHECK(static_cast<double>(std::ranges::count(stays, 0)) * dx * dx ==
-          Approx(area).margin(1.5 * dx * dx));
+          Approx(area).margin(dx * dx));
     const std::vector<Vec3> water = kept(x, stays);
     double nearest = 1e9;
     double highest = -1e9;
@@ -124,7 +125,8 @@ TEST_CASE("outer layers: around a circle at the surface stands as much water as 
       highest = std::max(highest, p.y());
     }
     CHECK(nearest > 0.49 * dx);
-    CHECK(highest < -0.3 * dx);  // the free surface stays where it was: half a spacing above
+    // The water rises by less than a tenth of a spacing from where it was, half a spacing below.
+    CHECK(highest < -0.4 * dx);
     // With the layers inside, the crowd is even below the surface.
     const std::vector<Vec3> wall = inner_layers(surface, dx, 3);
     const SmoothingKernel kernel(KernelType::quintic_spline, 2, 1.25 * dx);
