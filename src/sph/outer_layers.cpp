@@ -7,10 +7,10 @@
 #include <functional>
 #include <map>
 #include <numeric>
-#include <unordered_map>
 
 #include "base/parallel.hpp"
 #include "sph/crowd.hpp"
+#include "sph/places.hpp"
 
 namespace gannet {
 
@@ -130,40 +130,10 @@ Layers layers_of(const std::vector<Vec3>& lattice, const std::vector<double>& d,
   return layers;
 }
 
-/// Places by cells of one spacing.
-class Places {
- public:
-  explicit Places(double dx) : dx_(dx) {}
-  void add(const Vec3& x) { cells_[key(cell(x))].push_back(x); }
-  /// Whether nothing is nearer than half a spacing.
-  [[nodiscard]] bool has_room_at(const Vec3& x) const {
-    const std::array<std::int64_t, 3> c = cell(x);
-    for (int n = 0; n < 27; ++n) {
-      const auto found =
-          cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
-      if (found == cells_.end()) continue;
-      for (const Vec3& y : found->second) {
-        if ((x - y).norm() < 0.5 * dx_) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  [[nodiscard]] std::array<std::int64_t, 3> cell(const Vec3& x) const {
-    return {std::llround(x.x() / dx_), std::llround(x.y() / dx_), std::llround(x.z() / dx_)};
-  }
-  static std::int64_t key(const std::array<std::int64_t, 3>& c) {
-    return ((c[0] & 0x1fffff) << 42) | ((c[1] & 0x1fffff) << 21) | (c[2] & 0x1fffff);
-  }
-  double dx_;
-  std::unordered_map<std::int64_t, std::vector<Vec3>> cells_;
-};
-
 /// The lattice goes on beyond its ends, where nothing of it is within reach of what moves.
 void add_beyond(const std::vector<Vec3>& lattice, const std::vector<double>& d, double reach,
                 const Layers& layers, Crowd& crowd) {
-  Places places(crowd.dx);
+  Places places(0.5 * crowd.dx);
   for (std::size_t k = 0; k < lattice.size(); ++k) {
     if (std::abs(d[k]) < reach) places.add(lattice[k]);
   }

@@ -1,9 +1,11 @@
 #include "sph/wall_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
+
+#include "sph/places.hpp"
 
 namespace gannet {
 
@@ -101,36 +103,6 @@ void add_across_axes(const std::vector<Plane>& planes, const WallRegion& region,
   }
 }
 
-/// Points by cells as large as the distance that they must keep.
-class Crowd {
- public:
-  explicit Crowd(double apart) : apart_(apart) {}
-  void add(const Vec3& x) { cells_[key(cell(x))].push_back(x); }
-  [[nodiscard]] bool has_room_at(const Vec3& x) const {
-    const std::array<std::int64_t, 3> c = cell(x);
-    for (int n = 0; n < 27; ++n) {
-      const auto found =
-          cells_.find(key({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1}));
-      if (found == cells_.end()) continue;
-      for (const Vec3& y : found->second) {
-        if ((x - y).norm() < apart_) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  [[nodiscard]] std::array<std::int64_t, 3> cell(const Vec3& x) const {
-    return {std::llround(x.x() / apart_), std::llround(x.y() / apart_),
-            std::llround(x.z() / apart_)};
-  }
-  static std::int64_t key(const std::array<std::int64_t, 3>& c) {
-    return ((c[0] & 0x1fffff) << 42) | ((c[1] & 0x1fffff) << 21) | (c[2] & 0x1fffff);
-  }
-  double apart_;
-  std::unordered_map<std::int64_t, Points> cells_;
-};
-
 /// Two unit vectors along a plane; in a plane case the second one is zero.
 std::array<Vec3, 2> along(const Vec3& normal, int dimension) {
   if (dimension == 2) return {Vec3(-normal.y(), normal.x(), 0), Vec3::Zero()};
@@ -150,7 +122,7 @@ bool within(const WallRegion& region, const Vec3& x) {
 }
 
 void add_leaning(const std::vector<Plane>& planes, std::size_t k, const WallRegion& region,
-                 Crowd& crowd, std::vector<Points>& points) {
+                 Places& crowd, std::vector<Points>& points) {
   const Plane& plane = planes[k];
   const auto [u, w] = along(plane.normal, region.dimension);
   const Vec3 middle = 0.5 * (region.low + region.high);
@@ -177,7 +149,7 @@ std::vector<std::vector<Vec3>> points_behind(const std::vector<Plane>& planes,
                                              const WallRegion& region) {
   std::vector<Points> points(planes.size());
   add_across_axes(planes, region, points);
-  Crowd crowd(0.75 * region.dx);
+  Places crowd(0.75 * region.dx);
   for (const Points& one : points) {
     for (const Vec3& x : one) crowd.add(x);
   }
