@@ -22,17 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InputError(std::vector<std::string>{what});
-}
-
 /// tests/hard here or in a folder above.
 fs::path default_folder() {
   for (fs::path at = fs::current_path();; at = at.parent_path()) {
     if (fs::is_directory(at / "tests" / "hard")) return at / "tests" / "hard";
     if (at == at.parent_path()) break;
   }
-  refuse(
+  throw InputError(
       "there is no folder tests/hard here or above; name case files, or the folder with --cases");
 }
 
@@ -42,7 +38,7 @@ std::vector<std::string> cases_in(const fs::path& folder) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) refuse(fmt::format("there is no case in {}", folder.string()));
+  if (files.empty()) throw InputError(fmt::format("there is no case in {}", folder.string()));
   return files;
 }
 
@@ -59,7 +55,7 @@ std::vector<std::string> chosen_cases(const HardOptions& options) {
   for (const std::string& name : options.names) {
     const fs::path known = folder / (name + ".yaml");
     if (!fs::is_regular_file(name) && !fs::is_regular_file(known)) {
-      refuse(fmt::format("there is no hard case '{}' in {}", name, folder.string()));
+      throw InputError(fmt::format("there is no hard case '{}' in {}", name, folder.string()));
     }
     files.push_back(fs::is_regular_file(name) ? name : known.string());
   }
@@ -124,8 +120,8 @@ std::string map_file(const HardOptions& options, const std::string& case_name) {
 }
 
 int draw_map(const HardOptions& options) {
-  if (options.names.size() != 1) refuse("--map: name the one case that the map is of");
-  if (options.maps.size() > 2) refuse("--map: a map has one or two parameters");
+  if (options.names.size() != 1) throw InputError("--map: name the one case that the map is of");
+  if (options.maps.size() > 2) throw InputError("--map: a map has one or two parameters");
   const std::string file = chosen_cases(options).front();
   const std::string name = fs::path(file).stem().string();
   const HardBuilder build = builder_of(file);
@@ -138,7 +134,7 @@ int draw_map(const HardOptions& options) {
     try {
       axes.back().key = whole_key(axes.back().key, language(whole_schema()), root);
     } catch (const std::invalid_argument& e) {
-      refuse(fmt::format("--map {}: {}", text, e.what()));
+      throw InputError(fmt::format("--map {}: {}", text, e.what()));
     }
     axes.back().standard = standard_value(root, axes.back().key);
   }
@@ -148,7 +144,7 @@ int draw_map(const HardOptions& options) {
   const std::string path = map_file(options, name);
   std::ofstream out(path);
   out << svg_of(map);
-  if (!out.flush()) refuse(fmt::format("{} cannot be written", path));
+  if (!out.flush()) throw InputError(fmt::format("{} cannot be written", path));
   for (const std::string& line : margins_of(map)) fmt::print("{}\n", line);
   fmt::print("map: {}\n", path);
   return 0;

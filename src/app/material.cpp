@@ -19,10 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InputError(std::vector<std::string>{what});
-}
-
 /// One curve and what it is called in the picture.
 struct NamedCurve {
   std::string name;
@@ -34,7 +30,7 @@ std::unique_ptr<Case> case_of_card(const MaterialOptions& options, std::string& 
   const fs::path file(options.card);
   const bool is_file = file.extension() == ".yaml";
   if (is_file && !fs::is_regular_file(file)) {
-    refuse(fmt::format("there is no card {}", options.card));
+    throw InputError(fmt::format("there is no card {}", options.card));
   }
   name = is_file ? file.stem().string() : options.card;
   const std::string text =
@@ -50,9 +46,9 @@ double quantity_of(const std::string& text, const Dimension& wanted, const char*
     const Quantity q = parse_quantity(text);
     if (q.bare || q.dimension == wanted) return q.value;
   } catch (const std::invalid_argument& e) {
-    refuse(fmt::format("{} {}: {}", option, text, e.what()));
+    throw InputError(fmt::format("{} {}: {}", option, text, e.what()));
   }
-  refuse(fmt::format("{} {}: {}", option, text, wanted_text(wanted)));
+  throw InputError(fmt::format("{} {}: {}", option, text, wanted_text(wanted)));
 }
 
 StrainPath path_of(const std::string& word) {
@@ -71,7 +67,7 @@ CurvePlan plan_of(const MaterialOptions& options) {
   plan.to.clear();
   for (const std::string& to : options.to) {
     plan.to.push_back(quantity_of(to, dim::none, "--to"));
-    if (std::abs(plan.to.back()) > 3) refuse("--to: strains from -3 to 3 are wanted");
+    if (std::abs(plan.to.back()) > 3) throw InputError("--to: strains from -3 to 3 are wanted");
   }
   return plan;
 }
@@ -133,12 +129,13 @@ int material_command(const MaterialOptions& options) {
   source->mistakes.throw_if_any();
   CurvePlan plan = plan_of(options);
   if (plan.shell && material.hyperelastic()) {
-    refuse(fmt::format("{} is rubber, which only solids are made of: --element solid", name));
+    throw InputError(
+        fmt::format("{} is rubber, which only solids are made of: --element solid", name));
   }
   std::vector<NamedCurve> curves;
   for (const std::string& rate : options.rates) {
     plan.rate = quantity_of(rate, dim::frequency, "--rate");
-    if (!(plan.rate > 0)) refuse("--rate: a rate above 0 is wanted");
+    if (!(plan.rate > 0)) throw InputError("--rate: a rate above 0 is wanted");
     curves.push_back({fmt::format("{:g} 1/s", plan.rate), material_curve(material, plan)});
   }
   const std::string title = card.has("name") ? card.word("name") : name;

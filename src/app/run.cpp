@@ -55,8 +55,8 @@ void move_end(const RunOptions& options, RunRecord& record) {
         std::vector<std::string>{fmt::format("--until {}: {}", options.until, e.what())});
   }
   if ((!until.bare && until.dimension != dim::time) || !(until.value > 0)) {
-    throw InputError(std::vector<std::string>{
-        fmt::format("--until {}: a time above 0 is wanted (s, ms, us)", options.until)});
+    throw InputError(
+        fmt::format("--until {}: a time above 0 is wanted (s, ms, us)", options.until));
   }
   record.plan.until = until.value;
 }

@@ -74,7 +74,7 @@ auto read_option(const std::string& option, const std::string& text, F read) {
   try {
     return read(text);
   } catch (const std::invalid_argument& e) {
-    throw InputError(std::vector<std::string>{fmt::format("{} {}: {}", option, text, e.what())});
+    throw InputError(fmt::format("{} {}: {}", option, text, e.what()));
   }
 }
 

@@ -19,8 +19,11 @@ std::string Location::text() const {
 InputError::InputError(std::vector<std::string> messages)
     : std::runtime_error(join_lines(messages)), messages_(std::move(messages)) {}
 
+InputError::InputError(const std::string& message)
+    : InputError(std::vector<std::string>{message}) {}
+
 InputError::InputError(const Location& where, const std::string& what)
-    : InputError(std::vector<std::string>{where.text() + ": " + what}) {}
+    : InputError(where.text() + ": " + what) {}
 
 RunError::RunError(RunFailure failure)
     : std::runtime_error(fmt::format("{}\n  where: {}\n  why:   {}\n  try:   {}", failure.what,

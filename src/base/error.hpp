@@ -21,6 +21,7 @@ struct Location {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<std::string> messages);
+  explicit InputError(const std::string& message);
   InputError(const Location& where, const std::string& what);
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 

@@ -98,10 +98,10 @@ bool all_finite(const Nodes& nodes) {
 /// A limit that nothing can break is no test.
 void complain_of_unseen_penetration(Scene& scene) {
   if (sees_penetration(scene)) return;
-  throw InputError(std::vector<std::string>{
+  throw InputError(
       "hard.penetration: is measured behind planes and at contacts of type node_to_segment, and "
       "here is neither; nodes of 'type: kernel' have no sides: say by hard.exact what passes "
-      "through (probe 'flow')"});
+      "through (probe 'flow')");
 }
 
 HardWatch::HardWatch(const HardCase& hard, Scene& scene, Models& models)
@@ -133,16 +133,16 @@ void HardWatch::add_probe(const Exact& exact) {
   if (probe.measure == nullptr) {
     std::string names;
     for (const Measure& m : scene_->measures) names += (names.empty() ? "" : ", ") + m.name;
-    throw InputError(std::vector<std::string>{fmt::format(
-        "hard.exact.{}: there is no measure '{}' (there: {})", exact.name, exact.measure, names)});
+    throw InputError(fmt::format("hard.exact.{}: there is no measure '{}' (there: {})", exact.name,
+                                 exact.measure, names));
   }
   const auto& components = probe.measure->components;
   if (!exact.component.empty()) {
     const auto found = std::find(components.begin(), components.end(), exact.component);
     if (found == components.end()) {
-      throw InputError(std::vector<std::string>{
-          fmt::format("hard.exact.{}: '{}' has no component '{}' (there: {})", exact.name,
-                      exact.measure, exact.component, fmt::join(components, ", "))});
+      throw InputError(fmt::format("hard.exact.{}: '{}' has no component '{}' (there: {})",
+                                   exact.name, exact.measure, exact.component,
+                                   fmt::join(components, ", ")));
     }
     probe.component = static_cast<std::size_t>(found - components.begin());
   }

@@ -16,9 +16,9 @@ namespace {
 constexpr int bisections = 4;  // an edge known to one part in 16 of a cell of the grid
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw InputError(std::vector<std::string>{fmt::format(
+  throw InputError(fmt::format(
       "--map {}: {}; key=lowest..highest is wanted, such as effects.time_step.scale=0.5..2", text,
-      why)});
+      why));
 }
 
 Quantity read_bound(const std::string& text, const std::string& piece) {
