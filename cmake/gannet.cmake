@@ -29,27 +29,29 @@ target_precompile_headers(gannet_common PRIVATE
   <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath>
   <cstdint> <deque> <functional> <limits> <map> <memory> <string> <vector>)
 
-# gannet_room(NAME SOURCES a.cpp ... [ALONE b.cpp ...] [ISA c.isa.cpp ...]
-#             [USES other rooms and libraries ...])
-# makes the library gannet_NAME. Sources are compiled four at a time, for what they share takes longer
-# to compile than they do; two that meet may not give one name to what is their own. Files under ALONE
-# are compiled one by one: effects and contacts, which all call their own parts schema, state,
-# operations, track or owned. Files under ISA are compiled once per instruction set.
+# gannet_room(NAME SOURCES a.cpp ... [ISA c.isa.cpp ...] [USES other rooms and libraries ...])
+# makes the library gannet_NAME. Sources are compiled eight at a time, for what they share takes longer
+# to compile than they do; two that meet may not give one name to what is their own, so that effects,
+# which all have a schema, a state and operations, keep theirs in a namespace each. Files under ISA are
+# compiled once per instruction set.
 function(gannet_room NAME)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;ALONE;ISA;USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ISA;USES" ${ARGN})
   set(target gannet_${NAME})
-  add_library(${target} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
+  add_library(${target} STATIC ${ROOM_SOURCES})
   target_link_libraries(${target} PUBLIC gannet_common ${ROOM_USES} PRIVATE gannet_sanitizers)
   target_precompile_headers(${target} REUSE_FROM gannet_common)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
-  set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   # Taken together they look like headers, whose types may not be a file's own.
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   foreach(set avx2 avx512)
     if(ROOM_ISA)
       set(objects ${target}_${set})
       add_library(${objects} OBJECT ${ROOM_ISA})
-      target_link_libraries(${objects} PRIVATE gannet_flags gannet_sanitizers)
+      target_link_libraries(${objects} PRIVATE gannet_flags)
+      if(set STREQUAL avx2)
+        # The same source of kernels is looked at once: its checks take long to compile.
+        target_link_libraries(${objects} PRIVATE gannet_sanitizers)
+      endif()
       target_compile_definitions(${objects} PRIVATE GANNET_ISA_NS=${set})
       # Terms that a pass does not have leave their values unset; g++ 12 does not see that the flag
       # that reads them is the one that set them.
@@ -76,20 +78,27 @@ function(gannet_room NAME)
   endforeach()
 endfunction()
 
-# gannet_test(NAME SOURCES a.cpp ... [USES libraries ...] [LABEL fast]) makes an executable with
-# Catch2's main and one CTest entry.
-function(gannet_test NAME)
-  cmake_parse_arguments(T "" "LABEL" "SOURCES;USES" ${ARGN})
+# gannet_test_program(NAME SOURCES a.cpp ... [USES libraries ...]) makes the executable test_NAME with
+# Catch2's main. Eight files at a time: what they share takes longer to compile than they do.
+function(gannet_test_program NAME)
+  cmake_parse_arguments(T "" "" "SOURCES;USES" ${ARGN})
   add_executable(test_${NAME} ${T_SOURCES})
   target_precompile_headers(test_${NAME} REUSE_FROM gannet_test_main)
-  if(NAME MATCHES "^unit_")
-    # Four files at a time: what they share takes longer to compile than they do.
-    set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4
-      UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
-  endif()
+  set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8
+    UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
+  target_include_directories(test_${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${NAME} PRIVATE gannet_test_main ${T_USES})
-  add_test(NAME ${NAME} COMMAND test_${NAME} -d yes WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  if(T_LABEL)
-    set_tests_properties(${NAME} PROPERTIES LABELS ${T_LABEL})
-  endif()
+endfunction()
+
+# gannet_test_entry(NAME PROGRAM LABEL [arguments ...]) makes the CTest entry NAME of a test program.
+function(gannet_test_entry NAME PROGRAM LABEL)
+  add_test(NAME ${NAME} COMMAND ${PROGRAM} -d yes ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${NAME} PROPERTIES LABELS "${LABEL}")
+endfunction()
+
+# gannet_test(NAME SOURCES a.cpp ... [USES libraries ...] [LABEL fast]) makes both.
+function(gannet_test NAME)
+  cmake_parse_arguments(T "" "LABEL" "" ${ARGN})
+  gannet_test_program(${NAME} ${T_UNPARSED_ARGUMENTS})
+  gannet_test_entry(${NAME} test_${NAME} "${T_LABEL}")
 endfunction()

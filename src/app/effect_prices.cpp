@@ -15,13 +15,13 @@ namespace {
 /// h/dx of the scenes that the list was measured with.
 constexpr double ratio_of_list = 1.3;
 
-const std::vector<EffectPrice> prices = {
+const std::vector<EffectPrice> measured_prices = {
 #include "app/effect_prices.inc"
 };
 
 }  // namespace
 
-std::span<const EffectPrice> effect_prices() { return prices; }
+std::span<const EffectPrice> effect_prices() { return measured_prices; }
 
 std::vector<TermPrice> term_prices(Scene& scene, const std::vector<std::string>& effects,
                                    double fma) {

@@ -17,6 +17,7 @@
 namespace gannet {
 
 namespace {
+namespace acceleration {
 
 /// A formula takes some 0.1 us: chunks of these are long enough to be worth a task.
 constexpr Index chunk = 512;
@@ -139,10 +140,14 @@ void operations(const Keys& /*root*/, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace acceleration
 }  // namespace
 
 Effect acceleration_effect() {
-  return {.name = "acceleration", .schema = schema, .state = state, .operations = operations};
+  return {.name = "acceleration",
+          .schema = acceleration::schema,
+          .state = acceleration::state,
+          .operations = acceleration::operations};
 }
 
 }  // namespace gannet

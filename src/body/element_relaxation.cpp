@@ -17,6 +17,7 @@
 namespace gannet {
 
 namespace {
+namespace element_relaxation {
 
 Schema schema() {
   Key relaxation{.name = "element_relaxation",
@@ -147,6 +148,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
             }});
 }
 
+}  // namespace element_relaxation
 }  // namespace
 
 double frequency_squared(const ElementRelaxation& r, const Nodes& nodes, const Step& step) {
@@ -209,7 +211,10 @@ Work work_of(const ElementRelaxation& r, const Nodes& nodes, const Step& step) {
 }
 
 Effect element_relaxation_effect() {
-  return {.name = "element relaxation", .schema = schema, .state = state, .operations = operations};
+  return {.name = "element relaxation",
+          .schema = element_relaxation::schema,
+          .state = element_relaxation::state,
+          .operations = element_relaxation::operations};
 }
 
 }  // namespace gannet

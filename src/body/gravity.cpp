@@ -11,6 +11,7 @@
 namespace gannet {
 
 namespace {
+namespace gravity {
 
 /// The nodes of one part that move with one model, and where their work is written down.
 struct Share {
@@ -143,10 +144,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace gravity
 }  // namespace
 
 Effect gravity_effect() {
-  return {.name = "gravity", .schema = schema, .state = state, .operations = operations};
+  return {.name = "gravity",
+          .schema = gravity::schema,
+          .state = gravity::state,
+          .operations = gravity::operations};
 }
 
 }  // namespace gannet

@@ -10,6 +10,7 @@
 namespace gannet {
 
 namespace {
+namespace nodal_force {
 
 constexpr Index chunk = 1024;
 
@@ -114,10 +115,14 @@ void operations(const Keys& /*root*/, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace nodal_force
 }  // namespace
 
 Effect nodal_force_effect() {
-  return {.name = "nodal force", .schema = schema, .state = state, .operations = operations};
+  return {.name = "nodal force",
+          .schema = nodal_force::schema,
+          .state = nodal_force::state,
+          .operations = nodal_force::operations};
 }
 
 }  // namespace gannet

@@ -11,6 +11,7 @@
 namespace gannet {
 
 namespace {
+namespace part_damping {
 
 /// A damping without an end, of one part. Found by scene.store.
 struct PartDamping {
@@ -86,10 +87,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace part_damping
 }  // namespace
 
 Effect part_damping_effect() {
-  return {.name = "damping", .schema = schema, .state = state, .operations = operations};
+  return {.name = "damping",
+          .schema = part_damping::schema,
+          .state = part_damping::state,
+          .operations = part_damping::operations};
 }
 
 }  // namespace gannet

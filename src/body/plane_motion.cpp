@@ -8,6 +8,7 @@
 namespace gannet {
 
 namespace {
+namespace plane_motion {
 
 Schema schema() {
   Key rotation{.name = "rotation", .kind = Kind::map, .text = "turns the planes about an axis"};
@@ -153,6 +154,7 @@ void operations(const Keys&, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace plane_motion
 }  // namespace
 
 void place_planes(const PlaneMotion& motion, const Vec3& d, double theta, Scene& scene) {
@@ -198,7 +200,10 @@ void choose_motion(PlaneMotion& motion, Scene& scene, const Step& step) {
 }
 
 Effect plane_motion_effect() {
-  return {.name = "plane motion", .schema = schema, .state = state, .operations = operations};
+  return {.name = "plane motion",
+          .schema = plane_motion::schema,
+          .state = plane_motion::state,
+          .operations = plane_motion::operations};
 }
 
 }  // namespace gannet

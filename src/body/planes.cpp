@@ -6,13 +6,17 @@
 namespace gannet {
 
 namespace {
+namespace planes {
 
 void state(const Keys& root, Scene& scene) {
   for (const Plane& plane : read_planes(root)) scene.planes.push_back(plane);
 }
 
+}  // namespace planes
 }  // namespace
 
-Effect planes_effect() { return {.name = "planes", .schema = plane_schema, .state = state}; }
+Effect planes_effect() {
+  return {.name = "planes", .schema = plane_schema, .state = planes::state};
+}
 
 }  // namespace gannet

@@ -15,6 +15,7 @@
 namespace gannet {
 
 namespace {
+namespace prescribed_motion {
 
 constexpr std::array<const char*, 6> components{"x", "y", "z", "rx", "ry", "rz"};
 
@@ -196,10 +197,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace prescribed_motion
 }  // namespace
 
 Effect prescribed_motion_effect() {
-  return {.name = "prescribed motion", .schema = schema, .state = state, .operations = operations};
+  return {.name = "prescribed motion",
+          .schema = prescribed_motion::schema,
+          .state = prescribed_motion::state,
+          .operations = prescribed_motion::operations};
 }
 
 }  // namespace gannet

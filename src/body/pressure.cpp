@@ -11,7 +11,7 @@ namespace gannet {
 
 namespace {
 
-constexpr Index chunk = 1024;
+constexpr Index face_chunk = 1024;
 
 /// Pressure at the centre of a cell at time t [Pa], positive along the normals.
 double pressure_of(const PressureLoad& load, const Scene& scene, const Part& part, std::size_t cell,
@@ -35,7 +35,7 @@ void push_cells(PressureLoad& load, const Scene& scene, double t) {
   const auto corner = [&](std::size_t k) {
     return xyz(scene.nodes.x[static_cast<std::size_t>(part.connectivity[k])]);
   };
-  parallel_for(part.n_cells(), chunk, [&](Index begin, Index end) {
+  parallel_for(part.n_cells(), face_chunk, [&](Index begin, Index end) {
     for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
       const std::size_t k = c * n;
       const bool left = load.gone != nullptr && (*load.gone)[c] != 0;
@@ -96,7 +96,7 @@ void prepare(PressureLoad& load, const Scene& scene) {
 void add_pressure(PressureLoad& load, Scene& scene, double t) {
   const Range nodes = scene.parts[static_cast<std::size_t>(load.part)].nodes;
   push_cells(load, scene, t);
-  parallel_for(nodes.size(), chunk, [&](Index begin, Index end) {
+  parallel_for(nodes.size(), face_chunk, [&](Index begin, Index end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
       Vec3 sum = Vec3::Zero();
       for (Index e = load.first[k]; e < load.first[k + 1]; ++e) {
@@ -112,7 +112,7 @@ void add_pressure(PressureLoad& load, Scene& scene, double t) {
 Work work_of_pressure(const PressureLoad& load, const Scene& scene, const Step& step) {
   const Range nodes = scene.parts[static_cast<std::size_t>(load.part)].nodes;
   const Work none = Work::Zero();
-  return parallel_sum(nodes.size(), chunk, none, [&](Index begin, Index end) {
+  return parallel_sum(nodes.size(), face_chunk, none, [&](Index begin, Index end) {
     Work work = none;
     for (Index k = begin; k < end; ++k) {
       work += work_along(work_path(scene.nodes, nodes.begin + k, step),

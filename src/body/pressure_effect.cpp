@@ -9,6 +9,7 @@
 namespace gannet {
 
 namespace {
+namespace pressure {
 
 struct PressureLoads {
   std::deque<PressureLoad> list;
@@ -87,10 +88,14 @@ void operations(const Keys& /*root*/, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace pressure
 }  // namespace
 
 Effect pressure_effect() {
-  return {.name = "pressure", .schema = schema, .state = state, .operations = operations};
+  return {.name = "pressure",
+          .schema = pressure::schema,
+          .state = pressure::state,
+          .operations = pressure::operations};
 }
 
 }  // namespace gannet

@@ -15,6 +15,7 @@
 namespace gannet {
 
 namespace {
+namespace probes {
 
 const std::vector<std::string> components{"x", "y", "z"};
 
@@ -156,10 +157,14 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace probes
 }  // namespace
 
 Effect probes_effect() {
-  return {.name = "probes", .schema = schema, .state = state, .operations = operations};
+  return {.name = "probes",
+          .schema = probes::schema,
+          .state = probes::state,
+          .operations = probes::operations};
 }
 
 }  // namespace gannet

@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace relaxation {
 
 /// Found by scene.store.
 struct Relaxation {
@@ -116,6 +117,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
             }});
 }
 
+}  // namespace relaxation
 }  // namespace
 
 void look_at(SettlingPhase& phase, double kinetic, double t) {
@@ -125,7 +127,10 @@ void look_at(SettlingPhase& phase, double kinetic, double t) {
 }
 
 Effect relaxation_effect() {
-  return {.name = "relaxation", .schema = schema, .state = state, .operations = operations};
+  return {.name = "relaxation",
+          .schema = relaxation::schema,
+          .state = relaxation::state,
+          .operations = relaxation::operations};
 }
 
 }  // namespace gannet

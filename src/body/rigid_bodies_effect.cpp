@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace rigid_bodies {
 
 /// What a case says of a body: its node, its parts, and the body once it is made.
 struct NamedBody {
@@ -339,15 +340,16 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace rigid_bodies
 }  // namespace
 
 Effect rigid_bodies_effect() {
   return {.name = "rigid bodies",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = rigid_bodies::schema,
+          .parts = rigid_bodies::add_parts,
+          .state = rigid_bodies::state,
+          .operations = rigid_bodies::operations,
+          .choices = rigid_bodies::choices};
 }
 
 }  // namespace gannet

@@ -17,6 +17,7 @@
 namespace gannet {
 
 namespace {
+namespace rigid_phases {
 
 Schema schema() {
   Key rigid{.name = "rigid",
@@ -221,6 +222,7 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace rigid_phases
 }  // namespace
 
 std::vector<Keys> bodies_rigid_for_a_time(const Keys& root) {
@@ -234,11 +236,11 @@ std::vector<Keys> bodies_rigid_for_a_time(const Keys& root) {
 }
 
 Effect rigid_phases_effect() {
-  return {.name = "rigid for a time", .schema = schema, .state = state};
+  return {.name = "rigid for a time", .schema = rigid_phases::schema, .state = rigid_phases::state};
 }
 
 Effect rigid_phase_motion_effect() {
-  return {.name = "motion of what is rigid for a time", .operations = operations};
+  return {.name = "motion of what is rigid for a time", .operations = rigid_phases::operations};
 }
 
 }  // namespace gannet

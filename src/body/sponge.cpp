@@ -19,6 +19,7 @@
 namespace gannet {
 
 namespace {
+namespace sponge {
 
 struct Sponge {
   std::string name;
@@ -152,6 +153,7 @@ void operations(const Keys& /*root*/, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace sponge
 }  // namespace
 
 double rate_at(const SpongeZone& zone, const Vec3& x) {
@@ -166,7 +168,10 @@ double rate_at(const SpongeZone& zone, const Vec3& x) {
 }
 
 Effect sponge_effect() {
-  return {.name = "sponge", .schema = schema, .state = state, .operations = operations};
+  return {.name = "sponge",
+          .schema = sponge::schema,
+          .state = sponge::state,
+          .operations = sponge::operations};
 }
 
 }  // namespace gannet

@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace wall_force {
 
 Schema schema() {
   return {
@@ -122,10 +123,11 @@ void operations(const Keys& root, Scene& scene, Models&) {
   }
 }
 
+}  // namespace wall_force
 }  // namespace
 
 Effect wall_force_effect() {
-  return {.name = "wall_force", .schema = schema, .operations = operations};
+  return {.name = "wall_force", .schema = wall_force::schema, .operations = wall_force::operations};
 }
 
 }  // namespace gannet

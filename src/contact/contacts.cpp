@@ -17,6 +17,7 @@
 namespace gannet {
 
 namespace {
+namespace contacts {
 
 /// The share of E t that a penalty may have: a spring on a node is then softer than the shell's
 /// own membrane (about E t), and does not decide its time step.
@@ -196,6 +197,7 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace contacts
 }  // namespace
 
 void warn_of_offset(Scene& scene, const Keys& keys, int part, double offset) {
@@ -209,10 +211,10 @@ void warn_of_offset(Scene& scene, const Keys& keys, int part, double offset) {
 
 Effect contacts_effect() {
   return {.name = "contacts",
-          .schema = schema,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = contacts::schema,
+          .state = contacts::state,
+          .operations = contacts::operations,
+          .choices = contacts::choices};
 }
 
 }  // namespace gannet

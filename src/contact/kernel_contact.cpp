@@ -16,6 +16,7 @@
 namespace gannet {
 
 namespace {
+namespace kernel_contact {
 
 constexpr Index row_chunk = 64;
 
@@ -206,6 +207,7 @@ std::string who_limits(const Scene& scene, const KernelContact& c) {
                      scene.nodes.id[at(c.rate.node)]);
 }
 
+}  // namespace kernel_contact
 }  // namespace
 
 KernelContact& make_kernel_contact(Scene& scene, const std::string& name, int particle_part,
@@ -216,15 +218,15 @@ KernelContact& make_kernel_contact(Scene& scene, const std::string& name, int pa
   c.surface_part = surface_part;
   c.followers = &scene.store.get<Followers>();
   c.periods = &scene.store.get<Periods>();
-  const Part& part = scene.parts[at(surface_part)];
+  const Part& part = scene.parts[kernel_contact::at(surface_part)];
   c.surface = make_surface(part.kind == "solid" ? outer_faces(part).faces : part);
   for (Index j = 0; j < c.surface.n_nodes(); ++j) c.points.push_back({j, j, j, j});
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());
-  track(scene, c);
+  kernel_contact::track(scene, c);
   scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
   scene.after_restart.push_back([&scene, &c] {
-    if (c.search_numbers[0] >= 0) make_list(scene, c);
+    if (c.search_numbers[0] >= 0) kernel_contact::make_list(scene, c);
   });
   return c;
 }
@@ -233,9 +235,11 @@ double longest_edge(const Nodes& nodes, const Surface& surface) {
   double longest = 0;
   for (const Segment& g : surface.segments) {
     for (int k = 0; k < g.n_corners; ++k) {
-      const Index a = surface.node[g.corner[at(k)]];
-      const Index b = surface.node[g.corner[at((k + 1) % g.n_corners)]];
-      longest = std::max(longest, (xyz(nodes.x[at(a)]) - xyz(nodes.x[at(b)])).norm());
+      const Index a = surface.node[g.corner[kernel_contact::at(k)]];
+      const Index b = surface.node[g.corner[kernel_contact::at((k + 1) % g.n_corners)]];
+      longest = std::max(
+          longest,
+          (xyz(nodes.x[kernel_contact::at(a)]) - xyz(nodes.x[kernel_contact::at(b)])).norm());
     }
   }
   return longest;
@@ -245,47 +249,49 @@ void take_volumes(KernelContact& c, const Nodes& nodes, double thickness) {
   c.thickness = thickness;
   c.V_share.clear();
   for (const Segment& g : c.surface.segments) {
-    c.V_share.push_back(area_of(c.surface, nodes, g) * thickness / g.n_corners);
+    c.V_share.push_back(kernel_contact::area_of(c.surface, nodes, g) * thickness / g.n_corners);
   }
 }
 
 void list_pairs_of_now(Scene& scene, KernelContact& c) {
   update_surface(scene.nodes, c.surface);
-  add_up_volumes(c);
-  take_places(scene, c);
-  make_list(scene, c);
+  kernel_contact::add_up_volumes(c);
+  kernel_contact::take_places(scene, c);
+  kernel_contact::make_list(scene, c);
 }
 
 void search(Scene& scene, KernelContact& c, const Step& step) {
   update_surface(scene.nodes, c.surface);
-  add_up_volumes(c);
+  kernel_contact::add_up_volumes(c);
   const auto x = particle_lines(scene, scene.nodes.x);
   if (c.search_numbers[0] >= 0) {
     const Array<Index> before = c.candidates.point;
     order_rows(c.candidates);
-    if (c.candidates.point != before) finish_list(c);
+    if (c.candidates.point != before) kernel_contact::finish_list(c);
     const double moved = relative_displacement(x, owned_lines(scene, c.x_search), c.surface.x,
                                                c.node_x_search, *c.periods);
     if (moved <= c.search_numbers[0]) return;
   }
-  take_places(scene, c);
-  c.search_numbers[0] = skin_of(scene, c, step);
-  make_list(scene, c);
+  kernel_contact::take_places(scene, c);
+  c.search_numbers[0] = kernel_contact::skin_of(scene, c, step);
+  kernel_contact::make_list(scene, c);
 }
 
 void apply_kernel_contact(Scene& scene, KernelContact& c) {
   const Vec3 moved =
       c.periods->any() ? mean_displacement(c.surface.x, c.node_x_search) : Vec3(Vec3::Zero());
-  const RowSum sum =
-      parallel_sum(c.candidates.n_rows(), row_chunk, RowSum{}, [&](Index begin, Index end) {
-        RowSum part;
-        for (Index row = begin; row < end; ++row) part = part + push_particle(scene, c, row, moved);
-        return part;
-      });
-  push_nodes(scene, c);
+  const kernel_contact::RowSum sum =
+      parallel_sum(c.candidates.n_rows(), kernel_contact::row_chunk, kernel_contact::RowSum{},
+                   [&](Index begin, Index end) {
+                     kernel_contact::RowSum part;
+                     for (Index row = begin; row < end; ++row)
+                       part = part + kernel_contact::push_particle(scene, c, row, moved);
+                     return part;
+                   });
+  kernel_contact::push_nodes(scene, c);
   c.on_surface = -sum.force;
   c.active = sum.active;
-  c.rate = rate_of(scene, c);
+  c.rate = kernel_contact::rate_of(scene, c);
 }
 
 void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& ledger) {
@@ -302,7 +308,7 @@ void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& le
                       },
                   .stable_dt =
                       [&scene, &c] {
-                        c.limited_by = who_limits(scene, c);
+                        c.limited_by = kernel_contact::who_limits(scene, c);
                         return contact_step(c.rate.omega2, 0);
                       },
                   .limited_by = [&c] { return c.limited_by; }});
@@ -312,7 +318,7 @@ void add_kernel_contact(Scene& scene, KernelContact& c, Model& model, Ledger& le
                   .stage = Stage::look,
                   .reads = {"v", "f"},
                   .run = [&scene, &c, &entry](const Step& step) {
-                    entry.add_work(-work_of_pairs(scene, c, step));
+                    entry.add_work(-kernel_contact::work_of_pairs(scene, c, step));
                   }});
 }
 

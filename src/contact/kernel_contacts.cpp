@@ -20,6 +20,7 @@
 namespace gannet {
 
 namespace {
+namespace kernel_contacts {
 
 Schema schema() {
   return {{"contacts.*",
@@ -199,14 +200,15 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace kernel_contacts
 }  // namespace
 
 Effect kernel_contacts_effect() {
   return {.name = "kernel contact",
-          .schema = schema,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = kernel_contacts::schema,
+          .state = kernel_contacts::state,
+          .operations = kernel_contacts::operations,
+          .choices = kernel_contacts::choices};
 }
 
 }  // namespace gannet

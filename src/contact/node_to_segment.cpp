@@ -16,6 +16,7 @@
 namespace gannet {
 
 namespace {
+namespace node_to_segment {
 
 ContactInput input_of(const Scene& scene, const NodeToSegment& c, const Step& step) {
   return {&scene.nodes, scene.particles, &c.surface,  &c.candidates,
@@ -172,6 +173,7 @@ std::string who_limits(const Scene& scene, const NodeToSegment& c) {
                      scene.nodes.id[node]);
 }
 
+}  // namespace node_to_segment
 }  // namespace
 
 NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int particle_part,
@@ -186,11 +188,11 @@ NodeToSegment& make_node_to_segment(Scene& scene, const std::string& name, int p
   c.surface = make_surface(scene.parts[static_cast<std::size_t>(surface_part)]);
   c.node_stiffness.resize(c.surface.node.size());
   c.node_path.resize(c.surface.node.size());
-  size_memory(scene, c, friction);
-  track(scene, c);
+  node_to_segment::size_memory(scene, c, friction);
+  node_to_segment::track(scene, c);
   scene.index_lists.push_back({"contact." + name + ".candidates", &c.candidates.point});
   scene.after_restart.push_back([&scene, &c] {
-    if (c.search_numbers[0] >= 0) make_list(scene, c);
+    if (c.search_numbers[0] >= 0) node_to_segment::make_list(scene, c);
   });
   return c;
 }
@@ -207,9 +209,9 @@ bool search(Scene& scene, NodeToSegment& c, const Step& step) {
   }
   std::copy(x.begin(), x.end(), c.x_search.begin());
   std::copy(c.surface.x.begin(), c.surface.x.end(), c.node_x_search.begin());
-  c.search_numbers[0] = skin_of(scene, c, step);
-  make_list(scene, c);
-  forget_far(scene, c);
+  c.search_numbers[0] = node_to_segment::skin_of(scene, c, step);
+  node_to_segment::make_list(scene, c);
+  node_to_segment::forget_far(scene, c);
   return first;
 }
 
@@ -223,7 +225,7 @@ void apply_contact(Scene& scene, NodeToSegment& c, const Step& step, bool first)
     c.search_numbers[1] = overlaps.count;
     c.search_numbers[2] = overlaps.largest;
   }
-  const ContactInput in = input_of(scene, c, step);
+  const ContactInput in = node_to_segment::input_of(scene, c, step);
   contact_forces(in, c.law, c.tangential, c.forces);
   c.scattered = scatter_forces(in, c.law, c.forces, scene.nodes, c.node_stiffness);
   c.rate = largest_rate(in, c.law, c.node_stiffness);
@@ -254,13 +256,13 @@ void add_node_to_segment(Scene& scene, NodeToSegment& c, Models& models) {
     apply_contact(scene, c, step, first);
   };
   op.stable_dt = [&scene, &c] {
-    c.limited_by = who_limits(scene, c);
+    c.limited_by = node_to_segment::who_limits(scene, c);
     return contact_step(c.rate.omega2, c.law.damping);
   };
   op.limited_by = [&c] { return c.limited_by; };
   model.plan.add(std::move(op));
-  if (is_linked(c)) close_link(scene, c.link, models.ledger);
-  add_work(scene, c, model, models.ledger);
+  if (node_to_segment::is_linked(c)) close_link(scene, c.link, models.ledger);
+  node_to_segment::add_work(scene, c, model, models.ledger);
 }
 
 }  // namespace gannet

@@ -15,6 +15,7 @@
 namespace gannet {
 
 namespace {
+namespace part_contact_plan {
 
 /// Nodes of shells have a side within this share of an element at least.
 constexpr double near_of_shell = 0.3;
@@ -144,6 +145,7 @@ std::string reason_of(const PartMeeting& meeting) {
   return n == 1 ? first : fmt::format("{} contacts, the first {}", n, first);
 }
 
+}  // namespace part_contact_plan
 }  // namespace
 
 PartContact& make_part_contact(Scene& scene, const std::string& name, std::array<int, 2> parts,
@@ -160,9 +162,9 @@ PartContact& make_part_contact(Scene& scene, const std::string& name, std::array
   all.waits.push_back(0);
   c.followers = &scene.store.get<Followers>();
   for (std::size_t k = 0; k < 2; ++k) c.sides[k] = make_part_side(scene, parts[k], data[k]);
-  if (!c.sides[1].line) add_direction(c, 0, friction);
-  if (both_ways && !c.sides[0].line) add_direction(c, 1, friction);
-  track(scene, c);
+  if (!c.sides[1].line) part_contact_plan::add_direction(c, 0, friction);
+  if (both_ways && !c.sides[0].line) part_contact_plan::add_direction(c, 1, friction);
+  part_contact_plan::track(scene, c);
   scene.after_restart.push_back([&c] {
     if (c.numbers[0] >= 0) make_part_lists(c);
   });
@@ -174,9 +176,9 @@ void set_distance(PartContact& c, double distance) {
     const PartSide& segments = c.sides[d.segments];
     const double size = std::min(c.sides[0].depth, c.sides[1].depth);
     d.range.contact = distance;
-    d.range.near = segments.solid
-                       ? distance + inside_of_solid * segments.depth
-                       : std::max(GapRange::of(distance).near, distance + near_of_shell * size);
+    d.range.near = segments.solid ? distance + part_contact_plan::inside_of_solid * segments.depth
+                                  : std::max(GapRange::of(distance).near,
+                                             distance + part_contact_plan::near_of_shell * size);
   }
 }
 
@@ -194,7 +196,7 @@ void add_part_contact(Scene& scene, PartContact& c, Model& model, Ledger& ledger
 void add_part_contact_operations(Scene& scene, PartMeeting& meeting, Model& model) {
   Operation op;
   op.name = "contact: parts";
-  op.reason = reason_of(meeting);
+  op.reason = part_contact_plan::reason_of(meeting);
   op.stage = Stage::force;
   op.reads = {"x", "v"};
   op.writes = {"f"};
@@ -205,18 +207,18 @@ void add_part_contact_operations(Scene& scene, PartMeeting& meeting, Model& mode
     if (!(rate.omega2 > 0)) return std::numeric_limits<double>::infinity();
     // The force of damping begins a step late too: its error in energy wants the shorter step.
     if (meeting.damping > 0) return contact_step(rate.omega2, meeting.damping);
-    return std::max(
-        contact_step(rate.omega2, meeting.damping),
-        step_beside(smallest_of_others(model.plan, name), rate.omega2, meeting.damping));
+    return std::max(contact_step(rate.omega2, meeting.damping),
+                    step_beside(part_contact_plan::smallest_of_others(model.plan, name),
+                                rate.omega2, meeting.damping));
   };
-  op.limited_by = [&] { return who_limits(scene, meeting); };
+  op.limited_by = [&] { return part_contact_plan::who_limits(scene, meeting); };
   model.plan.add(std::move(op));
   Operation look;
   look.name = "contact: work of parts";
-  look.reason = reason_of(meeting);
+  look.reason = part_contact_plan::reason_of(meeting);
   look.stage = Stage::look;
   look.reads = {"v", "f"};
-  look.run = [&](const Step& step) { add_works(scene, meeting, step); };
+  look.run = [&](const Step& step) { part_contact_plan::add_works(scene, meeting, step); };
   model.plan.add(std::move(look));
 }
 

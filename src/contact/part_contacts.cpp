@@ -14,6 +14,7 @@
 namespace gannet {
 
 namespace {
+namespace part_contacts {
 
 Schema schema() {
   return {{"contacts.*",
@@ -219,14 +220,15 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace part_contacts
 }  // namespace
 
 Effect part_contacts_effect() {
   return {.name = "contacts of parts",
-          .schema = schema,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = part_contacts::schema,
+          .state = part_contacts::state,
+          .operations = part_contacts::operations,
+          .choices = part_contacts::choices};
 }
 
 }  // namespace gannet

@@ -11,6 +11,7 @@
 namespace gannet {
 
 namespace {
+namespace part_planes {
 
 /// Penetrations at the start below this share of the distance, or of the size of the elements, are
 /// rounding.
@@ -126,6 +127,7 @@ void track(Scene& scene, PartOnPlanes& c) {
                  .overlaps = 1});
 }
 
+}  // namespace part_planes
 }  // namespace
 
 PartOnPlanes& make_part_on_planes(Scene& scene, const std::string& name, int number,
@@ -140,7 +142,7 @@ PartOnPlanes& make_part_on_planes(Scene& scene, const std::string& name, int num
   const std::size_t n = c.planes.size() * c.side.surface.node.size();
   c.offset.assign(n, 0);
   if (friction) c.tangential.resize(n);
-  track(scene, c);
+  part_planes::track(scene, c);
   return c;
 }
 
@@ -150,7 +152,7 @@ double rate_of_all_nodes(const PartOnPlanes& c) {
     const Index node = c.side.surface.node[i];
     if (c.followers->leader_of(node) < 0) continue;
     const double w = c.followers->inverse_mass[static_cast<std::size_t>(node)];
-    rate2 += stiffness_of(c, i, c.area[i]) * w;
+    rate2 += part_planes::stiffness_of(c, i, c.area[i]) * w;
   }
   return rate2;
 }
@@ -158,11 +160,11 @@ double rate_of_all_nodes(const PartOnPlanes& c) {
 void part_on_planes_pass(Scene& scene, PartOnPlanes& c, const Step& step, PartMeeting& meeting) {
   if (c.rate2 < 0) c.rate2 = rate_of_all_nodes(c);
   meeting.rate2 = std::max(meeting.rate2, c.rate2);
-  find_touches(scene, c);
+  part_planes::find_touches(scene, c);
   if (!c.touches.empty()) update_side(scene.nodes, c.side);
-  find_stiffness(scene, c);
-  find_forces(scene, c, step);
-  scatter(scene, c, meeting);
+  part_planes::find_stiffness(scene, c);
+  part_planes::find_forces(scene, c, step);
+  part_planes::scatter(scene, c, meeting);
 }
 
 void add_work_on_planes(const Scene& scene, PartOnPlanes& c, const Step& step) {

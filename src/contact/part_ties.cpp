@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace part_ties {
 
 constexpr double share_of_segment = 0.1;
 
@@ -290,14 +291,18 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace part_ties
 }  // namespace
 
 Effect tie_places_effect() {
-  return {.name = "ties of parts", .state = state, .operations = operations, .choices = choices};
+  return {.name = "ties of parts",
+          .state = part_ties::state,
+          .operations = part_ties::operations,
+          .choices = part_ties::choices};
 }
 
 Effect tie_motion_effect() {
-  return {.name = "motion of tied nodes", .operations = last_operations};
+  return {.name = "motion of tied nodes", .operations = part_ties::last_operations};
 }
 
 }  // namespace gannet

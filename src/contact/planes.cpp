@@ -14,6 +14,7 @@
 namespace gannet {
 
 namespace {
+namespace planes {
 
 constexpr Index particle_chunk = 2048;
 
@@ -247,6 +248,7 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace planes
 }  // namespace
 
 double plane_step(double rate2) { return contact_step(rate2, 0); }
@@ -254,9 +256,9 @@ double plane_step(double rate2) { return contact_step(rate2, 0); }
 void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
   const std::size_t n_planes = scene.planes.size();
   Nodes& nodes = scene.nodes;
-  forget_chunks(state);
-  parallel_for(scene.awake().size(), particle_chunk, [&](Index begin, Index end) {
-    const auto chunk = static_cast<std::size_t>(begin / particle_chunk);
+  planes::forget_chunks(state);
+  parallel_for(scene.awake().size(), planes::particle_chunk, [&](Index begin, Index end) {
+    const auto chunk = static_cast<std::size_t>(begin / planes::particle_chunk);
     PlaneSums* sums = &state.chunks[chunk * n_planes];
     std::fill(sums, sums + n_planes, PlaneSums{});
     auto next = static_cast<std::size_t>(begin);
@@ -267,9 +269,9 @@ void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
       if (!(law.distance > 0)) continue;  // the particles of a wall
       bool touches = false;
       for (std::size_t k = 0; k < n_planes; ++k) {
-        const double d = distance(scene, state, k, law);
-        if (height(scene.planes[k], nodes.x[node]) >= d) continue;
-        const Vec3 f = force_on_particle(scene.planes[k], law, d, nodes.x[node]);
+        const double d = planes::distance(scene, state, k, law);
+        if (planes::height(scene.planes[k], nodes.x[node]) >= d) continue;
+        const Vec3 f = planes::force_on_particle(scene.planes[k], law, d, nodes.x[node]);
         add_xyz(nodes.f[node], f);
         sums[k].force -= f;
         touches = true;
@@ -278,7 +280,7 @@ void particles_on_planes(Scene& scene, ParticlesOnPlanes& state) {
     }
     state.n_touching[chunk] = static_cast<Index>(next) - begin;
   });
-  add_up(state.chunks, state.sums);
+  planes::add_up(state.chunks, state.sums);
 }
 
 void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& step) {
@@ -286,7 +288,7 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
   parallel_for(static_cast<Index>(state.n_touching.size()), 1, [&](Index c, Index) {
     const auto chunk = static_cast<std::size_t>(c);
     PlaneSums* sums = &state.chunks[chunk * n_planes];
-    const Index begin = c * particle_chunk;
+    const Index begin = c * planes::particle_chunk;
     for (Index t = begin; t < begin + state.n_touching[chunk]; ++t) {
       const Index i = state.touching[static_cast<std::size_t>(t)];
       const Index node = scene.particles.begin + i;
@@ -296,13 +298,14 @@ void work_of_planes(const Scene& scene, ParticlesOnPlanes& state, const Step& st
       for (std::size_t k = 0; k < n_planes; ++k) {
         const Plane& plane = scene.planes[k];
         const PlaneLaw& law = state.law[part];
-        const Vec3 f = force_on_particle(plane, law, distance(scene, state, k, law), x);
+        const Vec3 f =
+            planes::force_on_particle(plane, law, planes::distance(scene, state, k, law), x);
         sums[k].work += work_along(path, f);
         if (plane.moves) sums[k].put_in += work_along(path_of_plane(plane, xyz(x), step), f);
       }
     }
   });
-  add_up(state.chunks, state.sums);
+  planes::add_up(state.chunks, state.sums);
 }
 
 WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step) {
@@ -315,10 +318,10 @@ WorkPath path_of_plane(const Plane& plane, const Vec3& x, const Step& step) {
 
 Effect plane_contact_effect() {
   return {.name = "contact with planes",
-          .schema = schema,
-          .operations = operations,
-          .presence = presence,
-          .choices = choices};
+          .schema = planes::schema,
+          .operations = planes::operations,
+          .presence = planes::presence,
+          .choices = planes::choices};
 }
 
 }  // namespace gannet

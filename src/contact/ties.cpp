@@ -17,6 +17,7 @@
 namespace gannet {
 
 namespace {
+namespace ties {
 
 Schema schema() {
   return {{"ties.*", node_set_key("nodes", true)},
@@ -108,8 +109,9 @@ void state(const Keys& root, Scene& scene) {
   }
 }
 
+}  // namespace ties
 }  // namespace
 
-Effect ties_effect() { return {.name = "ties", .schema = schema, .state = state}; }
+Effect ties_effect() { return {.name = "ties", .schema = ties::schema, .state = ties::state}; }
 
 }  // namespace gannet

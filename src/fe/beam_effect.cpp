@@ -24,6 +24,7 @@
 namespace gannet {
 
 namespace {
+namespace beam {
 
 std::vector<Key> own_keys() {
   return {{.name = "material",
@@ -261,14 +262,15 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace beam
 }  // namespace
 
 Effect beam_effect() {
   return {.name = "beam",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations};
+          .schema = beam::schema,
+          .parts = beam::add_parts,
+          .state = beam::state,
+          .operations = beam::operations};
 }
 
 }  // namespace gannet

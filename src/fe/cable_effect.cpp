@@ -16,6 +16,7 @@
 namespace gannet {
 
 namespace {
+namespace cable {
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -86,14 +87,15 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace cable
 }  // namespace
 
 Effect cable_effect() {
   return {.name = "cable",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations};
+          .schema = cable::schema,
+          .parts = cable::add_parts,
+          .state = cable::state,
+          .operations = cable::operations};
 }
 
 }  // namespace gannet

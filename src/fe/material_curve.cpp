@@ -24,7 +24,7 @@ Vec3 place_of(const Vec3& X, const Strain& s) {
   return {std::exp(s.x) * X.x() + s.gamma * X.y(), std::exp(s.y) * X.y(), std::exp(s.z) * X.z()};
 }
 
-constexpr Index n_corners = 8;
+constexpr Index n_cube_corners = 8;
 constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                               {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
@@ -42,7 +42,7 @@ struct Element {
   ShellBlock shell;
 
   Element(const ElasticPlastic& material, bool as_shell) : is_shell(as_shell) {
-    const Index n = is_shell ? 4 : n_corners;
+    const Index n = is_shell ? 4 : n_cube_corners;
     nodes.n_owned = n;
     nodes.rotating = {0, is_shell ? n : 0};
     for (auto* lines : {&nodes.x, &nodes.v, &nodes.f}) lines->assign(n, {});

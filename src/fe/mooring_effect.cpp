@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace mooring {
 
 /// Notes a mistake of a line at the length that the case gives it, or where its file is named.
 void complain(const Keys& root, const MooringLine& line, const std::string& text) {
@@ -307,15 +308,16 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace mooring
 }  // namespace
 
 Effect moorings_effect() {
   return {.name = "moorings",
           .schema = mooring_schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .parts = mooring::add_parts,
+          .state = mooring::state,
+          .operations = mooring::operations,
+          .choices = mooring::choices};
 }
 
 }  // namespace gannet

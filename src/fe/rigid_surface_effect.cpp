@@ -14,6 +14,7 @@
 namespace gannet {
 
 namespace {
+namespace rigid_surface {
 
 constexpr const char* kind = "rigid_surface";
 
@@ -132,15 +133,16 @@ Presence presence(const Keys& root, Scene&) {
           parts.front().path() + "." + kind + " at " + parts.front().where(kind).text()};
 }
 
+}  // namespace rigid_surface
 }  // namespace
 
 Effect rigid_surface_effect() {
-  return {.name = kind,
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations,
-          .presence = presence};
+  return {.name = rigid_surface::kind,
+          .schema = rigid_surface::schema,
+          .parts = rigid_surface::add_parts,
+          .state = rigid_surface::state,
+          .operations = rigid_surface::operations,
+          .presence = rigid_surface::presence};
 }
 
 }  // namespace gannet

@@ -21,6 +21,7 @@
 namespace gannet {
 
 namespace {
+namespace shell {
 
 Schema schema() {
   return element_schema(
@@ -269,15 +270,16 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace shell
 }  // namespace
 
 Effect shell_effect() {
   return {.name = "shell",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = shell::schema,
+          .parts = shell::add_parts,
+          .state = shell::state,
+          .operations = shell::operations,
+          .choices = shell::choices};
 }
 
 }  // namespace gannet

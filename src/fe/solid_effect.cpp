@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace solid {
 
 std::vector<Key> own_keys() {
   const std::vector<Key> hourglass{
@@ -303,15 +304,16 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace solid
 }  // namespace
 
 Effect solid_effect() {
   return {.name = "solid",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations,
-          .choices = choices};
+          .schema = solid::schema,
+          .parts = solid::add_parts,
+          .state = solid::state,
+          .operations = solid::operations,
+          .choices = solid::choices};
 }
 
 }  // namespace gannet

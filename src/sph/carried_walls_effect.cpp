@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace carried_walls {
 
 Schema schema() {
   return {{"bodies.*",
@@ -175,11 +176,12 @@ void operations(const Keys& root, Scene& scene, Models& models) {
                   }});
 }
 
+}  // namespace carried_walls
 }  // namespace
 
 void read_carried_walls(const Keys& root, const Scene& scene, Walls& walls) {
-  for (const Keys& keys : walled_bodies(root)) {
-    const int part = scene.part_number(part_name(keys.name()));
+  for (const Keys& keys : carried_walls::walled_bodies(root)) {
+    const int part = scene.part_number(carried_walls::part_name(keys.name()));
     if (part < 0) continue;
     const std::string fluid = names_of_parts_with(root, "sph").front();
     walls.list.push_back(
@@ -195,10 +197,10 @@ void read_carried_walls(const Keys& root, const Scene& scene, Walls& walls) {
 
 Effect carried_walls_effect() {
   return {.name = "walls on bodies",
-          .schema = schema,
-          .parts = add_parts,
-          .state = state,
-          .operations = operations};
+          .schema = carried_walls::schema,
+          .parts = carried_walls::add_parts,
+          .state = carried_walls::state,
+          .operations = carried_walls::operations};
 }
 
 }  // namespace gannet

@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace corrected_gradients {
 
 Schema schema() {
   return {
@@ -65,13 +66,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                  }});
 }
 
+}  // namespace corrected_gradients
 }  // namespace
 
 Effect corrected_gradients_effect() {
   return {.name = "corrected_gradients",
-          .schema = schema,
-          .state = make_state,
-          .operations = add_operations};
+          .schema = corrected_gradients::schema,
+          .state = corrected_gradients::make_state,
+          .operations = corrected_gradients::add_operations};
 }
 
 }  // namespace gannet

@@ -22,6 +22,7 @@
 namespace gannet {
 
 namespace {
+namespace density_diffusion {
 
 Schema schema() {
   Key diffusion{
@@ -95,13 +96,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
             }});
 }
 
+}  // namespace density_diffusion
 }  // namespace
 
 Effect density_diffusion_effect() {
   return {.name = "density_diffusion",
-          .schema = schema,
-          .state = make_state,
-          .operations = add_operations};
+          .schema = density_diffusion::schema,
+          .state = density_diffusion::make_state,
+          .operations = density_diffusion::add_operations};
 }
 
 }  // namespace gannet

@@ -11,6 +11,7 @@
 namespace gannet {
 
 namespace {
+namespace displaced_fill {
 
 Schema schema() {
   return {
@@ -142,10 +143,12 @@ void parts(const Keys& root, Draft& draft) {
   }
 }
 
+}  // namespace displaced_fill
 }  // namespace
 
 Effect displaced_fill_effect() {
-  return {.name = "displaced fill", .schema = schema, .parts = parts};
+  return {
+      .name = "displaced fill", .schema = displaced_fill::schema, .parts = displaced_fill::parts};
 }
 
 }  // namespace gannet

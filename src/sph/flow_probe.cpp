@@ -19,6 +19,7 @@
 namespace gannet {
 
 namespace {
+namespace flow_probe {
 
 Schema schema() {
   Key plane{.name = "plane", .kind = Kind::map, .text = "the plane", .required = true};
@@ -157,11 +158,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace flow_probe
 }  // namespace
 
 Effect flow_probes_effect() {
-  return {
-      .name = "flow_probes", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "flow_probes",
+          .schema = flow_probe::schema,
+          .state = flow_probe::make_state,
+          .operations = flow_probe::add_operations};
 }
 
 }  // namespace gannet

@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace free_surface {
 
 /// The field that the output shows.
 struct FreeSurface {
@@ -49,10 +50,12 @@ void make_state(const Keys& root, Scene& scene) {
   scene.fields.push_back(std::move(field));
 }
 
+}  // namespace free_surface
 }  // namespace
 
 Effect free_surface_effect() {
-  return {.name = "free_surface", .schema = schema, .state = make_state};
+  return {
+      .name = "free_surface", .schema = free_surface::schema, .state = free_surface::make_state};
 }
 
 }  // namespace gannet

@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace laminar_viscosity {
 
 Schema schema() {
   Key laminar{.name = "laminar_viscosity",
@@ -55,13 +56,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                    asked_for_at(root.map("effects").where("laminar_viscosity")), scene, models);
 }
 
+}  // namespace laminar_viscosity
 }  // namespace
 
 Effect laminar_viscosity_effect() {
   return {.name = "laminar_viscosity",
-          .schema = schema,
-          .state = make_state,
-          .operations = add_operations};
+          .schema = laminar_viscosity::schema,
+          .state = laminar_viscosity::make_state,
+          .operations = laminar_viscosity::add_operations};
 }
 
 }  // namespace gannet

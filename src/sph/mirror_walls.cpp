@@ -30,6 +30,7 @@
 namespace gannet {
 
 namespace {
+namespace mirror_walls {
 
 /// The axis that a plane mirrors across; -1 for one that leans or turns, which
 /// only pushes, and for one that was asked to do without images.
@@ -281,14 +282,15 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace mirror_walls
 }  // namespace
 
 Effect mirror_walls_effect() {
   return {.name = "mirror_walls",
-          .state = make_state,
-          .operations = add_operations,
-          .presence = presence,
-          .choices = choices};
+          .state = mirror_walls::make_state,
+          .operations = mirror_walls::add_operations,
+          .presence = mirror_walls::presence,
+          .choices = mirror_walls::choices};
 }
 
 }  // namespace gannet

@@ -19,6 +19,7 @@
 namespace gannet {
 
 namespace {
+namespace periodic {
 
 constexpr std::array<const char*, 3> axes{"x", "y", "z"};
 
@@ -158,10 +159,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
   }
 }
 
+}  // namespace periodic
 }  // namespace
 
 Effect periodic_effect() {
-  return {.name = "periodic", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "periodic",
+          .schema = periodic::schema,
+          .state = periodic::make_state,
+          .operations = periodic::add_operations};
 }
 
 }  // namespace gannet

@@ -16,6 +16,7 @@
 namespace gannet {
 
 namespace {
+namespace renormalisation {
 
 struct Renormalisation {
   std::int64_t every = 0;  ///< steps; 0: never
@@ -88,13 +89,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                  }});
 }
 
+}  // namespace renormalisation
 }  // namespace
 
 Effect renormalisation_effect() {
   return {.name = "renormalisation",
-          .schema = schema,
-          .state = make_state,
-          .operations = add_operations};
+          .schema = renormalisation::schema,
+          .state = renormalisation::make_state,
+          .operations = renormalisation::add_operations};
 }
 
 }  // namespace gannet

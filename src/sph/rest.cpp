@@ -19,6 +19,7 @@
 namespace gannet {
 
 namespace {
+namespace rest {
 
 Schema schema() {
   Key rest{.name = "rest",
@@ -209,14 +210,15 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace rest
 }  // namespace
 
 Effect rest_effect() {
   return {.name = "rest",
-          .schema = schema,
-          .state = make_state,
-          .operations = add_operations,
-          .choices = choices};
+          .schema = rest::schema,
+          .state = rest::make_state,
+          .operations = rest::add_operations,
+          .choices = rest::choices};
 }
 
 }  // namespace gannet

@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace sea {
 
 bool in_waves(const Keys& part) {
   if (part.has("sph")) return part.has("start") && part.word("start") == "waves";
@@ -82,10 +83,11 @@ void make_state(const Keys& root, Scene& scene) {
   }
 }
 
+}  // namespace sea
 }  // namespace
 
 Effect sea_effect() {
-  return {.name = "sea", .schema = sea_schema, .parts = carry, .state = make_state};
+  return {.name = "sea", .schema = sea_schema, .parts = sea::carry, .state = sea::make_state};
 }
 
 }  // namespace gannet

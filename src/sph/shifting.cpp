@@ -24,6 +24,7 @@
 namespace gannet {
 
 namespace {
+namespace shifting {
 
 /// div r over the dimension: below the first a particle is at the surface, above the second inside.
 constexpr double at_surface = 0.75;
@@ -131,10 +132,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                  }});
 }
 
+}  // namespace shifting
 }  // namespace
 
 Effect shifting_effect() {
-  return {.name = "shifting", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "shifting",
+          .schema = shifting::schema,
+          .state = shifting::make_state,
+          .operations = shifting::add_operations};
 }
 
 }  // namespace gannet

@@ -18,6 +18,7 @@
 namespace gannet {
 
 namespace {
+namespace sph {
 
 Schema schema() {
   Key sph{.name = "sph", .kind = Kind::map, .text = "the part is made of particles"};
@@ -324,15 +325,16 @@ std::vector<Choice> choices(const Keys& root, Scene& scene) {
   return list;
 }
 
+}  // namespace sph
 }  // namespace
 
 Effect sph_effect() {
   return {.name = "sph",
-          .schema = schema,
-          .parts = add_parts,
-          .state = make_state,
-          .operations = add_operations,
-          .choices = choices};
+          .schema = sph::schema,
+          .parts = sph::add_parts,
+          .state = sph::make_state,
+          .operations = sph::add_operations,
+          .choices = sph::choices};
 }
 
 }  // namespace gannet

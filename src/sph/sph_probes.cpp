@@ -15,6 +15,7 @@
 namespace gannet {
 
 namespace {
+namespace sph_probes {
 
 Schema schema() {
   Key pressure{.name = "pressure", .kind = Kind::map, .text = "pressure in the water at a point"};
@@ -244,11 +245,14 @@ void add_operations(const Keys&, Scene& scene, Models& models) {
                  .run = [&boxes](const Step&) { boxes.fresh = false; }});
 }
 
+}  // namespace sph_probes
 }  // namespace
 
 Effect sph_probes_effect() {
-  return {
-      .name = "sph_probes", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "sph_probes",
+          .schema = sph_probes::schema,
+          .state = sph_probes::make_state,
+          .operations = sph_probes::add_operations};
 }
 
 }  // namespace gannet

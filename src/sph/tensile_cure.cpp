@@ -13,6 +13,7 @@
 namespace gannet {
 
 namespace {
+namespace tensile_cure {
 
 Schema schema() {
   Key cure{.name = "tensile_cure",
@@ -40,11 +41,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                    asked_for_at(root.map("effects").where("tensile_cure")), scene, models);
 }
 
+}  // namespace tensile_cure
 }  // namespace
 
 Effect tensile_cure_effect() {
-  return {
-      .name = "tensile_cure", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "tensile_cure",
+          .schema = tensile_cure::schema,
+          .state = tensile_cure::make_state,
+          .operations = tensile_cure::add_operations};
 }
 
 }  // namespace gannet

@@ -9,6 +9,7 @@
 namespace gannet {
 
 namespace {
+namespace viscosity {
 
 Schema schema() {
   Key viscosity{
@@ -44,10 +45,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                    asked_for_at(root.map("effects").where("viscosity")), scene, models);
 }
 
+}  // namespace viscosity
 }  // namespace
 
 Effect viscosity_effect() {
-  return {.name = "viscosity", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "viscosity",
+          .schema = viscosity::schema,
+          .state = viscosity::make_state,
+          .operations = viscosity::add_operations};
 }
 
 }  // namespace gannet

@@ -19,6 +19,7 @@
 namespace gannet {
 
 namespace {
+namespace xsph {
 
 Schema schema() {
   Key xsph{.name = "xsph",
@@ -86,10 +87,14 @@ void add_operations(const Keys& root, Scene& scene, Models& models) {
                  }});
 }
 
+}  // namespace xsph
 }  // namespace
 
 Effect xsph_effect() {
-  return {.name = "xsph", .schema = schema, .state = make_state, .operations = add_operations};
+  return {.name = "xsph",
+          .schema = xsph::schema,
+          .state = xsph::make_state,
+          .operations = xsph::add_operations};
 }
 
 }  // namespace gannet

@@ -18,7 +18,7 @@ using namespace gannet;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double H = 1;     // between the walls [m]
 constexpr double nu = 0.5;  // [m^2/s]
 constexpr double U = 1;     // of the lid; in the middle of the channel in the end [m/s]

@@ -3,6 +3,7 @@
 // 399, DOI 10.1006/jcph.1994.1034):
 //   dA/dt = A^2 (a^4 - 1)/(a^4 + 1),   da/dt = -A a,   b = 1/a
 #include "physics/running.hpp"
+#include "support/order.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
@@ -84,7 +85,7 @@ Shape shape_of(const Scene& scene) {
 }
 
 /// Errors at the end over the exact value [-].
-struct Result {
+struct EllipticDropResult {
   double b = 0;          ///< the semi-axis along y, from second moments
   double a = 0;          ///< along x
   double top = 0;        ///< b from the highest particle, which the flow draws out like the tip
@@ -93,17 +94,17 @@ struct Result {
 };
 
 /// n spacings to the radius.
-Result run(int n, const std::string& effects) {
+EllipticDropResult run(int n, const std::string& effects) {
   const auto s = make_simulation_of_text(drop(n, effects));
   const Shape start = shape_of(s->scene);
   run_until(*s, until, [] {});
   const Shape end = shape_of(s->scene);
   const double b = exact_b(time_of(*s));
-  const Result r{.b = std::sqrt(end.yy / start.yy) / b - 1,
-                 .a = std::sqrt(end.xx / start.xx) * b - 1,
-                 .top = end.top / b / (1 - 0.5 / n) - 1,
-                 .kinetic = end.vv / start.vv - 1,
-                 .imbalance = energy_error(*s)};
+  const EllipticDropResult r{.b = std::sqrt(end.yy / start.yy) / b - 1,
+                             .a = std::sqrt(end.xx / start.xx) * b - 1,
+                             .top = end.top / b / (1 - 0.5 / n) - 1,
+                             .kinetic = end.vv / start.vv - 1,
+                             .imbalance = energy_error(*s)};
   WARN(
       fmt::format("elliptic drop, R/dx {}, {}: b {:+.2e}, a {:+.2e}, b of the tip {:+.2e}, "
                   "kinetic energy {:+.2e}; energy error {:.1e}",
@@ -129,30 +130,28 @@ std::pair<double, double> weights_of_lattice(double b) {
   return {along_x, along_y};
 }
 
-double order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
-
 const char* const with_shifting =
     "viscosity: {alpha: 0.01}, density_diffusion: {delta: 0.1}, shifting: {}";
 
 }  // namespace
 
 TEST_CASE("elliptic drop: semi-axes and energy of the exact solution", "[convergence][sph]") {
-  std::vector<Result> r;
+  std::vector<EllipticDropResult> r;
   for (const int n : {10, 20, 40}) r.push_back(run(n, with_shifting));
-  WARN(
-      fmt::format("elliptic drop: orders from 10 to 20 to 40: b {:.2f}, {:.2f}; a {:.2f}, {:.2f}; "
-                  "b of the tip {:.2f}, {:.2f}; kinetic energy {:.2f}, {:.2f}",
-                  order(r[0].b, r[1].b), order(r[1].b, r[2].b), order(r[0].a, r[1].a),
-                  order(r[1].a, r[2].a), order(r[0].top, r[1].top), order(r[1].top, r[2].top),
-                  order(r[0].kinetic, r[1].kinetic), order(r[1].kinetic, r[2].kinetic)));
+  WARN(fmt::format(
+      "elliptic drop: orders from 10 to 20 to 40: b {:.2f}, {:.2f}; a {:.2f}, {:.2f}; "
+      "b of the tip {:.2f}, {:.2f}; kinetic energy {:.2f}, {:.2f}",
+      test::order(r[0].b, r[1].b), test::order(r[1].b, r[2].b), test::order(r[0].a, r[1].a),
+      test::order(r[1].a, r[2].a), test::order(r[0].top, r[1].top), test::order(r[1].top, r[2].top),
+      test::order(r[0].kinetic, r[1].kinetic), test::order(r[1].kinetic, r[2].kinetic)));
   // Artificial viscosity goes with h. Of the axes, what shifting does to their rim scatters.
-  CHECK(order(r[0].kinetic, r[1].kinetic) > 0.9);
-  CHECK(order(r[1].kinetic, r[2].kinetic) > 0.9);
-  CHECK(0.5 * order(r[0].b, r[2].b) > 0.8);
+  CHECK(test::order(r[0].kinetic, r[1].kinetic) > 0.9);
+  CHECK(test::order(r[1].kinetic, r[2].kinetic) > 0.9);
+  CHECK(0.5 * test::order(r[0].b, r[2].b) > 0.8);
   CHECK(std::abs(r[2].b) < 0.005);
   CHECK(std::abs(r[2].a) < 0.01);
   CHECK(std::abs(r[2].top) < 0.01);
-  for (const Result& each : r) CHECK(each.imbalance < 1e-3);
+  for (const EllipticDropResult& each : r) CHECK(each.imbalance < 1e-3);
 }
 
 // Without shifting the particles keep their order, in a lattice that is drawn out with the water.
@@ -166,7 +165,8 @@ TEST_CASE("elliptic drop: a lattice drawn out loses the volume", "[convergence][
   CHECK(along_x > 1);
   CHECK(along_y < 0.5);
   for (const int n : {10, 20}) {
-    const Result r = run(n, "viscosity: {alpha: 0.01}, density_diffusion: {delta: 0.1}");
+    const EllipticDropResult r =
+        run(n, "viscosity: {alpha: 0.01}, density_diffusion: {delta: 0.1}");
     CHECK(r.a > 0.03);  // with shifting a third of that at most
   }
 }

@@ -4,15 +4,16 @@
 #include <numbers>
 
 #include "physics/running.hpp"
+#include "support/gravity.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double nu = 0.01;  // [m^2/s]
-constexpr double g = 9.81;
+using std::numbers::pi;
+constexpr double wave_nu = 0.01;  // [m^2/s]
+using test::g;
 
 /// n particles over the length of 1 m, half a wave, and over the depth.
 std::string tank(int n, const char* form) {
@@ -32,7 +33,7 @@ loads: {{gravity: [0, -9.81 m/s^2, 0]}}
 effects: {{laminar_viscosity: {{mu: {} Pa*s, form: {}}}}}
 output: {{until: 10 s}}
 )yaml",
-                     1.0 / n, 1000 * nu, form);
+                     1.0 / n, 1000 * wave_nu, form);
 }
 
 struct Wave {
@@ -76,7 +77,7 @@ Wave run(int n, const char* form, double until) {
 }
 
 const double period = 2 * pi / std::sqrt(g * pi * std::tanh(pi));
-constexpr double decay = 2 * nu * pi * pi;
+constexpr double decay = 2 * wave_nu * pi * pi;
 
 }  // namespace
 

@@ -17,7 +17,7 @@ using namespace gannet::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double c2_over_p = 200;  // rho c^2/P at the floor of a tank: c = 10 sqrt(2 g H)
 
 /// One neighbour in a lattice of spacing 1: its place, V grad W and V grad grad W.

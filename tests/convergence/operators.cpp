@@ -58,19 +58,20 @@ const Fields linear = {
     [](const Vec3&) { return Vec3(2, -5, 0); }, [](const Vec3&) { return Vec3(0, 0, 0); }};
 
 /// A kernel and its h/dx: those that a case has where it does not say.
-struct Choice {
+struct KernelChoice {
   const char* name;
   KernelType kernel;
   double ratio;
 };
 
-const std::vector<Choice> choices = {{"cubic spline, h/dx 1.3", KernelType::cubic_spline, 1.3},
-                                     {"Wendland C2, h/dx 1.5", KernelType::wendland_c2, 1.5},
-                                     {"Wendland C4, h/dx 1.7", KernelType::wendland_c4, 1.7},
-                                     {"quintic spline, h/dx 1", KernelType::quintic_spline, 1.0}};
+const std::vector<KernelChoice> choices = {
+    {"cubic spline, h/dx 1.3", KernelType::cubic_spline, 1.3},
+    {"Wendland C2, h/dx 1.5", KernelType::wendland_c2, 1.5},
+    {"Wendland C4, h/dx 1.7", KernelType::wendland_c4, 1.7},
+    {"quintic spline, h/dx 1", KernelType::quintic_spline, 1.0}};
 
 /// Particles of the unit square, n across; jitter: largest displacement over dx in x and y.
-Fluid square(int n, double jitter, const Choice& choice, const Fields& fields) {
+Fluid square(int n, double jitter, const KernelChoice& choice, const Fields& fields) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(-jitter, jitter);
   const double dx = 1.0 / n;
@@ -110,7 +111,7 @@ struct Errors {
   Error divergence, gradient, viscous, corrected_divergence, corrected_gradient;
 };
 
-Errors errors_of(int n, double jitter, const Choice& choice, const Fields& fields) {
+Errors errors_of(int n, double jitter, const KernelChoice& choice, const Fields& fields) {
   const Fluid fluid = square(n, jitter, choice, fields);
   const Results r = vectorised(isa(), fluid, {.all = true});
   Errors e;
@@ -131,14 +132,15 @@ Errors errors_of(int n, double jitter, const Choice& choice, const Fields& field
 
 using Series = std::vector<Errors>;
 
-Series series(const Choice& choice, double jitter) {
+Series series(const KernelChoice& choice, double jitter) {
   Series all;
   for (const int n : {32, 64, 128}) all.push_back(errors_of(n, jitter, choice, smooth));
   return all;
 }
 
 /// Prints the errors of one sum and returns the last observed order.
-double order_of(const Choice& choice, const char* what, const Series& all, Error Errors::*error) {
+double order_of(const KernelChoice& choice, const char* what, const Series& all,
+                Error Errors::*error) {
   double e[3];
   for (std::size_t k = 0; k < 3; ++k) e[k] = (all[k].*error).size();
   const double order = std::log2(e[1] / e[2]);
@@ -152,7 +154,8 @@ struct Limit {
   double e0 = 0, order = 0;
 };
 
-Limit limit_of(const Choice& choice, const char* what, const Series& all, Error Errors::*error) {
+Limit limit_of(const KernelChoice& choice, const char* what, const Series& all,
+               Error Errors::*error) {
   double e[3];
   for (std::size_t k = 0; k < 3; ++k) e[k] = (all[k].*error).bias();
   const double ratio = (e[0] - e[1]) / (e[1] - e[2]);
@@ -165,7 +168,7 @@ Limit limit_of(const Choice& choice, const char* what, const Series& all, Error 
 }  // namespace
 
 TEST_CASE("operators: corrected gradients are exact for linear fields", "[convergence][sph]") {
-  for (const Choice& c : choices) {
+  for (const KernelChoice& c : choices) {
     const Errors e = errors_of(24, 0.2, c, linear);
     WARN(fmt::format("{}: divergence {:.1e}, gradient {:.1e}; plain {:.1e}, {:.1e}", c.name,
                      e.corrected_divergence.size(), e.corrected_gradient.size(),
@@ -178,7 +181,7 @@ TEST_CASE("operators: corrected gradients are exact for linear fields", "[conver
 }
 
 TEST_CASE("operators: order 2 on a lattice, to what the lattice leaves", "[convergence][sph]") {
-  for (const Choice& c : choices) {
+  for (const KernelChoice& c : choices) {
     const Series all = series(c, 0);
     const double of_lattice = errors_of(24, 0, c, linear).divergence.bias();
     for (const auto error : {&Errors::divergence, &Errors::gradient}) {
@@ -197,7 +200,7 @@ TEST_CASE("operators: order 2 on a lattice, to what the lattice leaves", "[conve
 }
 
 TEST_CASE("operators: order 1 out of order, with correction", "[convergence][sph]") {
-  for (const Choice& c : choices) {
+  for (const KernelChoice& c : choices) {
     const Series all = series(c, 0.1);
     CHECK(order_of(c, "jittered divergence", all, &Errors::divergence) == Approx(0).margin(0.2));
     CHECK(order_of(c, "jittered gradient", all, &Errors::gradient) == Approx(-1).margin(0.2));

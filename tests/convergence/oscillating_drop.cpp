@@ -3,6 +3,7 @@
 // Rafiee 2013, Int. J. Numer. Meth. Fluids 71, 537, DOI 10.1002/fld.3671):
 //   ds/dt = (s^2 + Omega^2) (b^2 - a^2)/(a^2 + b^2),   da/dt = s a,   b = 1/a
 #include "physics/running.hpp"
+#include "support/order.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
@@ -12,7 +13,7 @@ namespace {
 constexpr double s0 = 0.5;  // at the start; Omega = 1/s, the radius is 1 m [1/s]
 
 /// n spacings to the radius. The pressure at the start is rho (s^2 + Omega^2) (1 - r^2)/2.
-std::string drop(int n, const std::string& effects) {
+std::string drop_in_force_field(int n, const std::string& effects) {
   return fmt::format(R"yaml(gannet: 1
 title: Oscillating drop
 dimension: 2
@@ -61,16 +62,16 @@ Exact exact_solution() {
 }
 
 /// Errors over the exact value [-].
-struct Result {
+struct OscillatingDropResult {
   double period = 0;     ///< from the times when the drop is round
   double longest = 0;    ///< the last of the largest semi-axes along x or y, from second moments
   double momentum = 0;   ///< sum m v at the end over sum m |v| at the start
   double imbalance = 0;  ///< energy error
 };
 
-Result run(int n, int half_periods, const std::string& effects) {
+OscillatingDropResult run(int n, int half_periods, const std::string& effects) {
   static const Exact exact = exact_solution();
-  const auto s = make_simulation_of_text(drop(n, effects));
+  const auto s = make_simulation_of_text(drop_in_force_field(n, effects));
   const double scale = linear_momentum(s->scene).scale;
   std::vector<double> round_at;
   double start = 0, last = 0, last_t = 0, longest = 0, this_longest = 0;
@@ -93,10 +94,10 @@ Result run(int n, int half_periods, const std::string& effects) {
     last_t = t;
   });
   REQUIRE(round_at.size() == static_cast<std::size_t>(half_periods));
-  const Result r{.period = round_at.back() / half_periods / exact.half_period - 1,
-                 .longest = longest / exact.longest - 1,
-                 .momentum = linear_momentum(s->scene).sum.norm() / scale,
-                 .imbalance = energy_error(*s)};
+  const OscillatingDropResult r{.period = round_at.back() / half_periods / exact.half_period - 1,
+                                .longest = longest / exact.longest - 1,
+                                .momentum = linear_momentum(s->scene).sum.norm() / scale,
+                                .imbalance = energy_error(*s)};
   WARN(
       fmt::format("oscillating drop, R/dx {}, {}, {} periods: period {:+.2e}, semi-axis {:+.2e}, "
                   "momentum {:.0e}; energy error {:.1e}",
@@ -104,27 +105,25 @@ Result run(int n, int half_periods, const std::string& effects) {
   return r;
 }
 
-double order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
-
 }  // namespace
 
 TEST_CASE("oscillating drop: period and semi-axis of the exact solution", "[convergence][sph]") {
   // The period that the publication gives for s = 0.5/s.
   CHECK(2 * exact_solution().half_period == Approx(4.567375).epsilon(1e-6));
-  std::vector<Result> r;
+  std::vector<OscillatingDropResult> r;
   for (const int n : {10, 20, 40}) r.push_back(run(n, 4, "viscosity: {alpha: 0.01}"));
   WARN(
       fmt::format("oscillating drop: orders from 10 to 20 to 40: semi-axis {:.2f}, {:.2f}; period "
                   "{:.2f}, {:.2f}",
-                  order(r[0].longest, r[1].longest), order(r[1].longest, r[2].longest),
-                  order(r[0].period, r[1].period), order(r[1].period, r[2].period)));
+                  test::order(r[0].longest, r[1].longest), test::order(r[1].longest, r[2].longest),
+                  test::order(r[0].period, r[1].period), test::order(r[1].period, r[2].period)));
   // Artificial viscosity, which goes with h, takes most of the swing. The period ends at what
   // compression leaves of it: 3e-4 at a speed of sound of 10 m/s.
-  CHECK(order(r[0].longest, r[1].longest) > 1);
-  CHECK(order(r[1].longest, r[2].longest) > 1);
+  CHECK(test::order(r[0].longest, r[1].longest) > 1);
+  CHECK(test::order(r[1].longest, r[2].longest) > 1);
   CHECK(std::abs(r[2].longest) < 0.01);
   CHECK(std::abs(r[2].period) < 1e-3);
-  for (const Result& each : r) {
+  for (const OscillatingDropResult& each : r) {
     CHECK(each.momentum < 1e-12);
     CHECK(each.imbalance < 1e-3);
   }
@@ -132,7 +131,7 @@ TEST_CASE("oscillating drop: period and semi-axis of the exact solution", "[conv
 
 // Others lose 1 to 3 % of the swing in ten periods with density diffusion.
 TEST_CASE("oscillating drop: ten periods", "[.][convergence_long]") {
-  const Result r = run(40, 20, "viscosity: {alpha: 0.01}, density_diffusion: {}");
+  const OscillatingDropResult r = run(40, 20, "viscosity: {alpha: 0.01}, density_diffusion: {}");
   CHECK(std::abs(r.period) < 1e-3);
   CHECK(std::abs(r.longest) < 0.03);
 }

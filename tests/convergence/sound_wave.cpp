@@ -9,11 +9,11 @@ using namespace gannet::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double c0 = 10;      // [m/s]
-constexpr double rho0 = 1000;  // [kg/m^3]
-constexpr double P = 1;        // 1e-5 of rho0 c0^2: no steepening [Pa]
-constexpr double k = 2 * pi;   // one wave over the length of 1 m [1/m]
+using std::numbers::pi;
+constexpr double c0 = 10;             // [m/s]
+constexpr double rho_at_rest = 1000;  // [kg/m^3]
+constexpr double P = 1;               // 1e-5 of rho_at_rest c0^2: no steepening [Pa]
+constexpr double k = 2 * pi;          // one wave over the length of 1 m [1/m]
 
 /// n particles a wave.
 std::string column(int n, const std::string& sph, const std::string& effects) {
@@ -44,7 +44,7 @@ double wave_of(Scene& scene) {
   return 2 * sum / scene.particles.size();
 }
 
-struct Result {
+struct SoundWaveResult {
   double frequency_error = 0;  ///< measured over c0/L, less 1 [-]
   double loss_per_period = 0;  ///< of amplitude [-]
   double imbalance = 0;        ///< energy error [-]
@@ -52,7 +52,7 @@ struct Result {
 
 /// Ten periods. The frequency is that of the times when the wave passes zero. The size of its
 /// crests, by a parabola through the three largest values, is fitted with a straight line.
-Result run(int n, const std::string& sph, const std::string& effects) {
+SoundWaveResult run(int n, const std::string& sph, const std::string& effects) {
   const auto s = make_simulation_of_text(column(n, sph, effects));
   std::vector<double> t, a, zeros, crest_times, crests;
   run_until(*s, 10.1 * 2 * pi / (k * c0), [&] {
@@ -70,7 +70,7 @@ Result run(int n, const std::string& sph, const std::string& effects) {
   });
   REQUIRE(zeros.size() >= 19);
   REQUIRE(crests.size() >= 18);
-  Result result;
+  SoundWaveResult result;
   const double f = 0.5 * static_cast<double>(zeros.size() - 1) / (zeros.back() - zeros.front());
   result.frequency_error = f * 2 * pi / (k * c0) - 1;
   double tt = 0, ta = 0, t_mean = 0, a_mean = 0;
@@ -90,11 +90,12 @@ Result run(int n, const std::string& sph, const std::string& effects) {
 /// Three resolutions, whose frequencies differ from the exact one by e0 + C h^order.
 struct Series {
   double e0 = 0, order = 0;
-  Result finest;
+  SoundWaveResult finest;
 };
 
 Series series(const std::string& sph, const std::string& effects) {
-  const Result r[3] = {run(16, sph, effects), run(32, sph, effects), run(64, sph, effects)};
+  const SoundWaveResult r[3] = {run(16, sph, effects), run(32, sph, effects),
+                                run(64, sph, effects)};
   const double e[3] = {r[0].frequency_error, r[1].frequency_error, r[2].frequency_error};
   const double ratio = (e[0] - e[1]) / (e[1] - e[2]);
   const Series all{e[2] - (e[1] - e[2]) / (ratio - 1), std::log2(ratio), r[2]};

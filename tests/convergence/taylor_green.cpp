@@ -11,7 +11,7 @@ using namespace gannet::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double nu = 0.01;  // U = 1 m/s, L = 1 m [m^2/s]
 
 /// n particles across.
@@ -34,7 +34,7 @@ output: {{until: 10 s}}
                      1.0 / n, effects);
 }
 
-struct Result {
+struct TaylorGreenResult {
   double decay_error = 0;  ///< of the rate of decay of kinetic energy, over 4 k^2 nu [-]
   double speed_error = 0;  ///< mean over time of |largest speed - exact|/U [-]
   double v_error = 0;      ///< rms of v - exact at the end over U [-]
@@ -66,12 +66,12 @@ Look look_at(const Simulation& s) {
   return now;
 }
 
-Result run(int n, double until, const std::string& effects) {
+TaylorGreenResult run(int n, double until, const std::string& effects) {
   const auto s = make_simulation_of_text(vortex(n, effects));
   std::vector<Look> looks;
   run_until(*s, until, [&] { looks.push_back(look_at(*s)); });
   const Look& end = looks.back();
-  Result r;
+  TaylorGreenResult r;
   r.decay_error = -std::log(end.kinetic) / (16 * pi * pi * nu * end.t) - 1;
   for (const Look& l : looks) {
     r.speed_error += std::abs(l.top - std::exp(-8 * pi * pi * nu * l.t));
@@ -84,7 +84,7 @@ Result run(int n, double until, const std::string& effects) {
 
 /// Both runs to t = 1 s, when a fifth of the kinetic energy is left, with density diffusion and
 /// shifting; returns the order of the rms error of v.
-double compare(const std::vector<int>& across, double shifting, std::vector<Result>& r) {
+double compare(const std::vector<int>& across, double shifting, std::vector<TaylorGreenResult>& r) {
   const auto effects =
       fmt::format(", density_diffusion: {{delta: 0.1}}, shifting: {{coefficient: {}}}", shifting);
   for (const int n : across) {
@@ -110,23 +110,23 @@ double compare(const std::vector<int>& across, double shifting, std::vector<Resu
 // sum at a fixed h/dx over particles in no order, up to 1 % of the rate. (At the usual h/dx, 1.25,
 // 50 across decay 1.4 % too fast, 100 across 0.1 %.)
 TEST_CASE("Taylor-Green vortex: decay of the exact solution", "[convergence][sph]") {
-  std::vector<Result> r;
+  std::vector<TaylorGreenResult> r;
   CHECK(compare({25, 50}, 1, r) > 1.5);
   CHECK(std::abs(r[1].decay_error) < 0.01);
   CHECK(r[1].speed_error < 0.01);
 }
 
 TEST_CASE("Taylor-Green vortex: with strong shifting 25 across do", "[convergence][sph]") {
-  std::vector<Result> r;
+  std::vector<TaylorGreenResult> r;
   CHECK(compare({25, 50}, 2, r) > 0.2);  // down to the bias
-  for (const Result& each : r) {
+  for (const TaylorGreenResult& each : r) {
     CHECK(std::abs(each.decay_error) < 0.01);
     CHECK(each.speed_error < 0.01);
   }
 }
 
 TEST_CASE("Taylor-Green vortex: without shifting it is lost", "[convergence][sph]") {
-  const Result r = run(25, 1, "");
+  const TaylorGreenResult r = run(25, 1, "");
   WARN(fmt::format(
       "Taylor-Green, 25 across, no shifting: rate of decay {:+.2e}, largest speed {:.1e}",
       r.decay_error, r.speed_error));
@@ -134,7 +134,7 @@ TEST_CASE("Taylor-Green vortex: without shifting it is lost", "[convergence][sph
 }
 
 TEST_CASE("Taylor-Green vortex: 100 across", "[.][convergence_long]") {
-  std::vector<Result> r;
+  std::vector<TaylorGreenResult> r;
   CHECK(compare({50, 100}, 1, r) > 0.5);
   CHECK(std::abs(r[1].decay_error) < 0.01);
   CHECK(r[1].speed_error < 0.005);

@@ -14,7 +14,7 @@ namespace {
 
 // A column 1 m long, periodic, in which a strong standing wave (a tenth of the speed of sound)
 // steepens; XSPH on, viscosity off, so that every term is smooth in time.
-const char* column = R"(gannet: 1
+const char* standing_wave = R"(gannet: 1
 dimension: 2
 materials:
   water: {card: water, c0: 10 m/s}
@@ -47,7 +47,7 @@ State take(const Scene& scene, const Step& step) {
 
 /// The state at 30 ms after n steps whose sizes vary by 30 %.
 State state_with(int n) {
-  const auto simulation = make_simulation_of_text(column);
+  const auto simulation = make_simulation_of_text(standing_wave);
   Scene& scene = simulation->scene;
   for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
     scene.nodes.v[i].x = 1.0 * std::sin(2 * M_PI * scene.nodes.x[i].x);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "running.hpp"
+#include "support/gravity.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
@@ -9,7 +10,7 @@ using namespace gannet::test;
 namespace {
 
 constexpr double a = 0.05715;
-constexpr double g = 9.81;
+using test::g;
 
 struct Fit {
   double shift = 0;     ///< of the experiment's time zero, in T

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "running.hpp"
+#include "support/gravity.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
@@ -16,7 +17,7 @@ struct Tank {
 };
 
 constexpr double depth = 1;
-constexpr double g = 9.81;
+using test::g;
 constexpr double rho0 = 1000;
 
 std::string text(const Tank& tank) {

@@ -11,7 +11,7 @@ namespace {
 
 /// A tilted panel of shells, fast enough to yield, or a rigid one, meets a block of water in free
 /// flight; nodes are as far apart as particles.
-std::string free_flight(bool rigid) {
+std::string case_of_flight(bool rigid) {
   return fmt::format(
       R"case(gannet: 1
 materials:
@@ -77,7 +77,7 @@ output: {{until: 1 s, checkpoint: never}}
 
 TEST_CASE("kernel contact: momentum is kept to rounding over a violent impact", "[physics]") {
   for (const bool rigid : {false, true}) {
-    const auto s = make_simulation_of_text(free_flight(rigid));
+    const auto s = make_simulation_of_text(case_of_flight(rigid));
     advance(s->models);
     const auto angular = [&] {
       Vec3 sum = angular_momentum(s->scene).sum + spin_of_nodes(s->scene);

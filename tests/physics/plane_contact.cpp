@@ -6,13 +6,14 @@
 #include <string>
 
 #include "running.hpp"
+#include "support/gravity.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
 
 namespace {
 
-constexpr double g = 9.81;
+using test::g;
 
 /// Mean place and velocity of a part by masses, or by its nodes alone where a body has taken them.
 struct Mean {

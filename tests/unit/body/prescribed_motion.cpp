@@ -24,7 +24,7 @@ std::unique_ptr<World> panel_world(const std::string& text, bool rotations = fal
                     {gravity_effect(), prescribed_motion_effect(), nodal_force_effect()});
 }
 
-std::string mistakes(const std::string& boundaries, bool rotations = false) {
+std::string mistakes_of_boundaries(const std::string& boundaries, bool rotations = false) {
   try {
     return test::mistakes_of(*panel_world("boundaries:\n" + boundaries, rotations));
   } catch (const InputError& error) {
@@ -162,20 +162,22 @@ TEST_CASE("prescribed motion: what two boundaries prescribe alike is counted onc
 }
 
 TEST_CASE("prescribed motion: mistakes name their place", "[body]") {
-  CHECK_THAT(mistakes("  edges: {nodes: {edge_of: panel}, fix: [z]}\n"
-                      "  b: {nodes: {part: panel}, velocity: [free, free, 1 m/s]}\n"),
+  CHECK_THAT(mistakes_of_boundaries("  edges: {nodes: {edge_of: panel}, fix: [z]}\n"
+                                    "  b: {nodes: {part: panel}, velocity: [free, free, 1 m/s]}\n"),
              Catch::Contains("case.yaml:5:") && Catch::Contains("boundaries.b.velocity: z of") &&
                  Catch::Contains("prescribed otherwise by boundary 'edges' (case.yaml:4:"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: panel}, fix: [z], velocity: [free, 1 m/s, 1 m/s]}\n"),
+  CHECK_THAT(mistakes_of_boundaries(
+                 "  b: {nodes: {part: panel}, fix: [z], velocity: [free, 1 m/s, 1 m/s]}\n"),
              Catch::Contains("z is prescribed by 'fix' already"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: panel}, fix: [rx]}\n"),
+  CHECK_THAT(mistakes_of_boundaries("  b: {nodes: {part: panel}, fix: [rx]}\n"),
              Catch::Contains("boundaries.b.fix: the nodes have no rotations"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: panel}}\n"), Catch::Contains("say what the nodes do"));
-  CHECK_THAT(mistakes("  b: {fix: [x]}\n"), Catch::Contains("say of which nodes"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: panel}, velocity: [1 m/s, 2 m/s]}\n"),
+  CHECK_THAT(mistakes_of_boundaries("  b: {nodes: {part: panel}}\n"),
+             Catch::Contains("say what the nodes do"));
+  CHECK_THAT(mistakes_of_boundaries("  b: {fix: [x]}\n"), Catch::Contains("say of which nodes"));
+  CHECK_THAT(mistakes_of_boundaries("  b: {nodes: {part: panel}, velocity: [1 m/s, 2 m/s]}\n"),
              Catch::Contains("2 numbers stand here; three are wanted"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: panel}, velocity: [free, loose, 1 s]}\n"),
+  CHECK_THAT(mistakes_of_boundaries("  b: {nodes: {part: panel}, velocity: [free, loose, 1 s]}\n"),
              Catch::Contains("loose") && Catch::Contains("'1 s' is a time"));
-  CHECK_THAT(mistakes("  b: {nodes: {part: pool}, fix: [x]}\n"),
+  CHECK_THAT(mistakes_of_boundaries("  b: {nodes: {part: pool}, fix: [x]}\n"),
              Catch::Contains("made of particles"));
 }

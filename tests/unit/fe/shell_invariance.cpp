@@ -12,7 +12,7 @@ using namespace gannet::testing;
 
 namespace {
 
-const ElasticPlastic steel{.rho = 7800, .E = 210e9, .nu = 0.3, .sigma_y = 250e6, .H = 1e9};
+const ElasticPlastic yielding{.rho = 7800, .E = 210e9, .nu = 0.3, .sigma_y = 250e6, .H = 1e9};
 const ElasticPlastic elastic_steel{.rho = 7800, .E = 210e9, .nu = 0.3};
 
 Vec3 total_force(const Nodes& nodes) {
@@ -125,7 +125,7 @@ TEST_CASE("shell: a node that spins about its fibre strains nothing", "[fe]") {
 TEST_CASE("shell: stress and forces turn with the body", "[fe]") {
   const ShellKind kind = GENERATE(ShellKind::one_point, ShellKind::quad, ShellKind::triangle);
   Sheet s = crumpled(3, 3, 2);
-  ShellBlock block = block_of(s, steel, {.kind = kind, .thickness = 0.01});
+  ShellBlock block = block_of(s, yielding, {.kind = kind, .thickness = 0.01});
   random_motion(s, 3, 1, 1);
   const double dt = 1e-5;
   for (int k = 0; k < 3; ++k) shell_pass(block, s.nodes, dt);
@@ -167,7 +167,7 @@ TEST_CASE("shell: forces and moments of warped elements balance", "[fe]") {
     for (const auto form : {HourglassForm::stiffness, HourglassForm::viscous}) {
       Sheet s = crumpled(5, 5, 4);
       ShellBlock block = block_of(
-          s, steel, {.kind = kind, .thickness = 0.01, .hourglass = form, .warping = warping});
+          s, yielding, {.kind = kind, .thickness = 0.01, .hourglass = form, .warping = warping});
       random_motion(s, 5, 2, 20);
       const double dt = 5e-6;
       for (int k = 0; k < 20; ++k) {
@@ -229,7 +229,7 @@ TEST_CASE("shell: a warped sheet that flies and crumples keeps both momenta", "[
   const bool plastic = GENERATE(false, true);
   Sheet s = crumpled(8, 6, 31);
   ShellBlock block =
-      block_of(s, plastic ? steel : elastic_steel, {.kind = kind, .thickness = 0.005});
+      block_of(s, plastic ? yielding : elastic_steel, {.kind = kind, .thickness = 0.005});
   add_shell_masses(block, s.nodes);
   random_motion(s, 32, 20, 100);
   for (Line& v : s.nodes.v) v.x += 30;
@@ -347,8 +347,8 @@ TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {
   // One square stretched along x with free sides would need equilibrium; stretched with fixed
   // sides (uniaxial strain) its energy is that of the point: E' eps_y^2/2 up to yield and beyond.
   Sheet s = grid(1, 1, [](int i, int j) { return Vec3(0.1 * i, 0.1 * j, 0); });
-  ShellBlock block = block_of(s, steel, {.thickness = 0.002});
-  const PlaneStressLaw law = plane_stress_law(steel);
+  ShellBlock block = block_of(s, yielding, {.thickness = 0.002});
+  const PlaneStressLaw law = plane_stress_law(yielding);
   ElementWork total;
   PlaneStress<double> sigma{0, 0, 0};
   double eps_p = 0;
@@ -378,7 +378,7 @@ TEST_CASE("shell: plastic work is part of the internal energy", "[fe]") {
   // 3e-3 during it.
   const double volume = 0.002 * 0.1 * 0.1;
   CHECK(total.plastic ==
-        Approx((steel.sigma_y + 0.5 * steel.H * eps_p) * eps_p * volume).epsilon(4e-3));
+        Approx((yielding.sigma_y + 0.5 * yielding.H * eps_p) * eps_p * volume).epsilon(4e-3));
 }
 
 TEST_CASE("shell: the thickness follows stretching only where asked", "[fe]") {

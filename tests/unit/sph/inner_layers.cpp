@@ -5,30 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/shapes.hpp"
+#include "closed_lines.hpp"
 
 using namespace gannet;
 
 namespace {
-
-ClosedSurface polygon(const std::vector<Vec3>& points) {
-  ClosedSurface surface{.dimension = 2};
-  std::vector<Index> lines;
-  const auto n = static_cast<Index>(points.size());
-  for (Index k = 0; k < n; ++k) lines.insert(lines.end(), {k, (k + 1) % n});
-  add_boundary(points, lines, 2, false, surface);
-  REQUIRE(close_surface(surface).empty());
-  return surface;
-}
-
-ClosedSurface circle(double R) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < 200; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 200;
-    points.emplace_back(R * std::cos(angle), R * std::sin(angle), 0);
-  }
-  return polygon(points);
-}
 
 double least_distance(const std::vector<Vec3>& x) {
   double least = 1e9;
@@ -41,7 +22,7 @@ double least_distance(const std::vector<Vec3>& x) {
 }  // namespace
 
 TEST_CASE("inner layers: a box that fits the spacing gets its own lattice", "[sph]") {
-  const auto x = inner_layers(polygon({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}}), 0.1, 3);
+  const auto x = inner_layers(test::polygon({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}}), 0.1, 3);
   CHECK(x.size() == 10 * 20 - 4 * 14);  // three layers of cells around what stays empty
   for (const Vec3& p : x) {
     CHECK(std::abs(std::remainder(p.x() - 0.05, 0.1)) < 1e-12);
@@ -52,7 +33,7 @@ TEST_CASE("inner layers: a box that fits the spacing gets its own lattice", "[sp
 TEST_CASE("inner layers: below a circle they stand half a spacing deep, evenly", "[sph]") {
   for (const double R : {0.4, 1.0}) {
     const double dx = 0.1;
-    const ClosedSurface surface = circle(R);
+    const ClosedSurface surface = test::circle(Vec3::Zero(), R);
     const auto x = inner_layers(surface, dx, 3);
     // The ring of three layers, a particle for each dx^2 of it.
     const double area = std::numbers::pi * (R * R - std::pow(R - 3 * dx, 2));

@@ -5,31 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "closed_lines.hpp"
 #include "kernel/smoothing_kernel.hpp"
 #include "sph/inner_layers.hpp"
 
 using namespace gannet;
 
 namespace {
-
-ClosedSurface polygon(const std::vector<Vec3>& points) {
-  ClosedSurface surface{.dimension = 2};
-  std::vector<Index> lines;
-  const auto n = static_cast<Index>(points.size());
-  for (Index k = 0; k < n; ++k) lines.insert(lines.end(), {k, (k + 1) % n});
-  add_boundary(points, lines, 2, false, surface);
-  REQUIRE(close_surface(surface).empty());
-  return surface;
-}
-
-ClosedSurface circle(const Vec3& centre, double R) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < 200; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 200;
-    points.push_back(centre + R * Vec3(std::cos(angle), std::sin(angle), 0));
-  }
-  return polygon(points);
-}
 
 /// A lattice from -2 to 2 in x and from -2 to 0 in y.
 std::vector<Vec3> lattice(double dx) {
@@ -56,7 +38,7 @@ TEST_CASE("outer layers: a lattice that fits a box is left as it is", "[sph]") {
   const std::vector<Vec3> before = lattice(dx);
   std::vector<Vec3> x = before;
   const auto stays =
-      stand_outside(polygon({{-1, -0.5, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
+      stand_outside(test::polygon({{-1, -0.5, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
   CHECK((x == before));
   CHECK(std::ranges::count(stays, 0) == 20 * 5);
 }
@@ -67,7 +49,7 @@ TEST_CASE("outer layers: a lattice that nearly fits keeps nothing inside and get
   for (const double misfit : {-0.04, 0.04}) {
     const double depth = 0.5 + misfit * dx;
     const ClosedSurface surface =
-        polygon({{-4, -depth, 0}, {4, -depth, 0}, {4, 0.5, 0}, {-4, 0.5, 0}});
+        test::polygon({{-4, -depth, 0}, {4, -depth, 0}, {4, 0.5, 0}, {-4, 0.5, 0}});
     std::vector<Vec3> x;
     for (int j = -20; j < 0; ++j) {
       for (int i = -60; i < 60; ++i) x.emplace_back((i + 0.5) * dx, (j + 0.5) * dx, 0);
@@ -80,7 +62,8 @@ TEST_CASE("outer layers: a lattice that nearly fits keeps nothing inside and get
 
 TEST_CASE("outer layers: points on a face stand outside of it", "[sph]") {
   const double dx = 0.1;
-  const ClosedSurface surface = polygon({{-1, -0.55, 0}, {1, -0.55, 0}, {1, 0.5, 0}, {-1, 0.5, 0}});
+  const ClosedSurface surface =
+      test::polygon({{-1, -0.55, 0}, {1, -0.55, 0}, {1, 0.5, 0}, {-1, 0.5, 0}});
   std::vector<Vec3> x = lattice(dx);
   const auto stays = stand_outside(surface, dx, x);
   for (const Vec3& p : kept(x, stays)) {
@@ -93,8 +76,8 @@ TEST_CASE("outer layers: of a row that a face cuts goes what the face cuts off",
   const double dx = 0.1;
   for (const double depth : {0.52, 0.57, 0.63}) {
     std::vector<Vec3> x = lattice(dx);
-    const auto stays =
-        stand_outside(polygon({{-1, -depth, 0}, {1, -depth, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
+    const auto stays = stand_outside(
+        test::polygon({{-1, -depth, 0}, {1, -depth, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}), dx, x);
     const auto gone = static_cast<double>(std::ranges::count(stays, 0));
     // The sum over cells is exact for a plane face; a row goes by pairs, half a pair is left over.
     CHECK(gone == Approx(2 * depth / (dx * dx)).margin(1 + 1e-6));
@@ -108,7 +91,7 @@ TEST_CASE("outer layers: around a circle at the surface stands as much water as 
           "[sph]") {
   const double dx = 0.1;
   for (const double y : {-0.25, 0.03, 0.25}) {
-    const ClosedSurface surface = circle({0, y, 0}, 1);
+    const ClosedSurface surface = test::circle({0, y, 0}, 1);
     std::vector<Vec3> x = lattice(dx);
     const auto stays = stand_outside(surface, dx, x);
     // The segment below y = 0.

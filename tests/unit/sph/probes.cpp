@@ -11,7 +11,7 @@ using gannet::test::Pool;
 
 namespace {
 
-const char* water = "materials: {water: {density: 1000, c0: 30 m/s}}\n";
+const char* water_card = "materials: {water: {density: 1000, c0: 30 m/s}}\n";
 
 std::vector<double> measured(const Scene& scene, const std::string& name) {
   for (const Measure& m : scene.measures) {
@@ -52,7 +52,7 @@ std::pair<double, double> by_brute_force(Pool& pool, const Array<Line>& v) {
 }  // namespace
 
 TEST_CASE("mirror walls: the force on a wall is that of its images on the water", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
                 "parts: {pool: {sph: {material: water, spacing: 0.1}, start: hydrostatic, "
                 "fill: {box: {from: [0, 0, -1], to: [0.6, 0.5, 0]}}}}\n"
                 "effects: {viscosity: {alpha: 0.1, beta: 0.3}}",
@@ -84,7 +84,7 @@ TEST_CASE("mirror walls: the force on a wall is that of its images on the water"
 }
 
 TEST_CASE("probes: water through a plane, the rate and the volume since the start", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
             "parts: {drop: {sph: {material: water, spacing: 0.1}, initial_velocity: [1, 0, 0], "
             "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
             "boundaries: {sides: {periodic: {x: [0, 0.8]}}}\n"
@@ -103,7 +103,7 @@ TEST_CASE("probes: water through a plane, the rate and the volume since the star
   CHECK(measured(pool.scene, "probe.seam")[1] ==
         Approx(0.064 * (std::floor((t - 0.07) / 0.1) + 1)).epsilon(1e-9));
   CHECK_THROWS_WITH(
-      Pool(std::string(water) +
+      Pool(std::string(water_card) +
            "parts: {drop: {sph: {material: water, spacing: 0.1}, "
            "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
            "probes: {q: {flow: {plane: {point: [0, 0, 0], normal: [0, 0, 0]}}}}"),
@@ -111,7 +111,7 @@ TEST_CASE("probes: water through a plane, the rate and the volume since the star
 }
 
 TEST_CASE("probes: how far pressures are from a function of place", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
                 "parts: {pool: {sph: {material: water, spacing: 0.25}, start: hydrostatic, "
                 "fill: {box: {from: [0, 0, -1], to: [0.5, 0.5, 0]}}}}\n"
                 "probes: {none: {deviation: {part: pool, pressure: \"-1e4*z\"}}, "
@@ -127,7 +127,7 @@ TEST_CASE("probes: how far pressures are from a function of place", "[sph]") {
 }
 
 TEST_CASE("probes: a gauge finds the same particles as a look at all of them", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
                 "parts: {pool: {sph: {material: water, spacing: 0.1}, start: hydrostatic, "
                 "fill: {box: {from: [0, 0, -1], to: [0.9, 0.8, 0]}, jitter: 0.2}}}",
             3, {0, 0, -10});
@@ -151,7 +151,7 @@ TEST_CASE("probes: a gauge finds the same particles as a look at all of them", "
 }
 
 TEST_CASE("probes: gauges see water that has left a periodic domain", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
             "parts: {drop: {sph: {material: water, spacing: 0.1}, initial_velocity: [1, 0, 0], "
             "fill: {box: {from: [0, 0, 0], to: [0.8, 0.8, 0.8]}}}}\n"
             "boundaries: {sides: {periodic: {x: [0, 0.8]}}}\n"
@@ -166,7 +166,7 @@ TEST_CASE("probes: gauges see water that has left a periodic domain", "[sph]") {
 }
 
 TEST_CASE("probes: pressure within, at the surface and at a wall of still water", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
                 "parts: {pool: {sph: {material: water, spacing: 0.05}, start: hydrostatic, "
                 "fill: {box: {from: [0, 0, -1], to: [0.6, 0.6, 0]}}}}",
             3, {0, 0, -10}, [](Scene& scene) {
@@ -185,7 +185,7 @@ TEST_CASE("probes: pressure within, at the surface and at a wall of still water"
 }
 
 TEST_CASE("probes: a gauge on a thin surface reads its wet side", "[sph]") {
-  Pool pool(std::string(water) +
+  Pool pool(std::string(water_card) +
             "parts: {pool: {sph: {material: water, spacing: 0.1}, "
             "fill: {box: {from: [-0.4, -0.4, -0.4], to: [0.4, 0.4, 0.4]}}}}");
   for (Index k = 0; k < pool.scene.particles.size(); ++k) {
