@@ -7,6 +7,7 @@
 #include "scene/periods.hpp"
 #include "sph/effects.hpp"
 #include "sph/outer_layers.hpp"
+#include "sph/wall_parts.hpp"
 
 namespace gannet {
 
@@ -100,9 +101,10 @@ void part_water(const ClosedSurface& surface, double spacing, const Repeats& rep
 /// Distance of neighbouring particles of a part; 0 where it has none of its own.
 double spacing_of(const Keys& root, const Keys& part) {
   if (part.has("sph")) return part.map("sph").number_or("spacing", 0);
-  const Keys wall = part.map("wall");
-  if (!wall.has("like") || !root.map("parts").has(wall.word("like"))) return 0;
-  return root.map("parts").map(wall.word("like")).map("sph").number_or("spacing", 0);
+  if (!part.has("wall")) return 0;
+  const std::string fluid = named_fluid(root, part.map("wall"));
+  if (fluid.empty() || !root.map("parts").has(fluid)) return 0;
+  return root.map("parts").map(fluid).map("sph").number_or("spacing", 0);
 }
 
 /// The periods of the domain as the case has them; whether they are sound is for sph/periodic.cpp,

@@ -116,13 +116,19 @@ std::vector<std::string> names_of_parts_with(const Keys& root, const char* key) 
   return names;
 }
 
+std::string named_fluid(const Keys& root, const Keys& wall) {
+  if (wall.has("like")) return wall.word("like");
+  const std::vector<std::string> fluids = names_of_parts_with(root, "sph");
+  return fluids.empty() ? "" : fluids.front();
+}
+
 std::string fluid_of(const Keys& root, const Keys& wall) {
   const std::vector<std::string> fluids = names_of_parts_with(root, "sph");
   if (fluids.empty()) {
     wall.complain("", "a wall of particles needs a fluid, and no part is made of 'sph'");
     return "";
   }
-  const std::string like = wall.has("like") ? wall.word("like") : fluids.front();
+  const std::string like = named_fluid(root, wall);
   if (std::ranges::find(fluids, like) == fluids.end()) {
     wall.complain("like", fmt::format("'{}' is not made of 'sph'", like));
     return "";

@@ -11,6 +11,10 @@ namespace gannet {
 /// Names of the parts under a key ("sph", "wall"), in file order.
 std::vector<std::string> names_of_parts_with(const Keys& root, const char* key);
 
+/// The fluid that a wall names, else the first of the case; "" where there is none. A name is not
+/// looked up.
+std::string named_fluid(const Keys& root, const Keys& wall);
+
 /// The fluid that a wall goes with; "" after a complaint.
 std::string fluid_of(const Keys& root, const Keys& wall);
 

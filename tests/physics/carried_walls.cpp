@@ -80,7 +80,40 @@ output: {{until: 10 s, checkpoint: never}}
                      dx, draft);
 }
 
+/// How many particles of a bed of 20 x 10, 0.05 m apart, are left outside of a hull of 0.42 m x
+/// 0.31 m; wall: the keys of the bed.
+Index left_of_bed(const std::string& wall) {
+  const auto s = make_simulation_of_text(fmt::format(R"case(gannet: 1
+dimension: 2
+materials: {{water: {{density: 1000, c0: 30 m/s}}}}
+parts:
+  pool:
+    sph: {{material: water, spacing: 0.05}}
+    fill: {{box: {{from: [-0.5, 1, 0], to: [0.5, 1.2, 0]}}}}
+  bed:
+    wall: {}
+    fill: {{box: {{from: [-0.5, -0.5, 0], to: [0.5, 0, 0]}}, outside: hull}}
+  hull:
+    rigid_surface: {{}}
+    shape:
+      polyline:
+        points: [[-0.21, -0.31, 0], [0.21, -0.31, 0], [0.21, 0.1, 0], [-0.21, 0.1, 0], [-0.21, -0.31, 0]]
+        elements: [2, 2, 2, 2]
+bodies: {{hull: {{parts: hull, density: 500}}}}
+output: {{until: 1 s, checkpoint: never}}
+)case",
+                                                     wall));
+  return s->scene.parts[static_cast<std::size_t>(s->scene.part_number("bed"))].nodes.size();
+}
+
 }  // namespace
+
+TEST_CASE("walls: a bed keeps half a spacing off a hull, whether it names its fluid or not",
+          "[physics]") {
+  // 10 columns to 0.225 m and 7 rows to 0.325 m are in the hull or nearer to it than 0.025 m.
+  CHECK(left_of_bed("{like: pool}") == 200 - 10 * 7);
+  CHECK(left_of_bed("{}") == 200 - 10 * 7);
+}
 
 TEST_CASE("walls on bodies: momentum of water and body is kept to rounding", "[physics]") {
   for (const char* slip : {"free", "none"}) {
