@@ -94,6 +94,14 @@ std::vector<Vote> small_votes(const Model& model) {
   return votes;
 }
 
+/// Warnings from number `first` on; returns how many there are.
+std::size_t print_warnings(const Scene& scene, std::size_t first) {
+  for (std::size_t k = first; k < scene.warnings.size(); ++k) {
+    fmt::print("warning: {}\n", scene.warnings[k]);
+  }
+  return scene.warnings.size();
+}
+
 void print_steps(Models& models) {
   for (const Model& model : models.list) {
     const Vote vote = smallest_vote(model);
@@ -130,14 +138,13 @@ int check_command(const RunOptions& options) {
   const auto simulation = make_simulation(options.case_file, options.set);
   fmt::print("{}: {}\n", options.case_file, simulation->scene.title);
   print_parts(simulation->scene);
-  for (const std::string& warning : simulation->scene.warnings) {
-    fmt::print("warning: {}\n", warning);
-  }
+  const std::size_t of_case = print_warnings(simulation->scene, 0);
   evaluate_start(simulation->models);
   print_overlaps(simulation->scene);
   print_steps(simulation->models);
   print_memory(*simulation);
   print_run_time(*simulation);
+  print_warnings(simulation->scene, of_case);  // of the first steps
   fmt::print("the case is sound; nothing was written\n");
   return 0;
 }

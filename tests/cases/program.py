@@ -173,6 +173,26 @@ class Program(unittest.TestCase):
             plan = explain.stdout.split("model main: the operations")[1]
             self.assertNotIn(word, plan.split("defaults taken")[0])
 
+    def test_check_warns_of_what_the_first_steps_of_a_run_do(self):
+        path = pathlib.Path(self.folder.name) / "case.yaml"
+        part = ("  {}:\n"
+                "    shell: {{material: steel, thickness: 50 mm}}\n"
+                "    shape: {{plate: {{size: [1, 1], elements: [{}, {}], centre: [{}, 0, 0]}}}}\n")
+        path.write_text("gannet: 1\n"
+                        "materials: {steel: {density: 7800, young: 200 GPa, poisson: 0.3}}\n"
+                        "parts:\n" + part.format("wing", 4, 4, 0.5) +
+                        part.format("fin", 16, 16, 1.5) +
+                        "ties: {seam: {nodes: {plane: {point: [1, 0, 0], normal: [1, 0, 0]}, "
+                        "of: fin}, to: wing}}\n"
+                        "models: {slow: {parts: wing}, fast: {parts: fin}}\n"
+                        "output: {until: 10 ms}\n")
+        said = "with no layer of elements of its step in between"
+        check = gannet("check", str(path), "--threads", "1")
+        self.assertEqual(check.returncode, 0, check.stderr)
+        self.assertEqual(check.stdout.count(said), 1, check.stdout)
+        run = gannet("run", str(path), "--threads", "1", "--out", str(self.out))
+        self.assertEqual((run.stdout + run.stderr).count(said), 1, run.stderr)
+
     def test_effects_csv_holds_every_operation_and_the_price_of_pair_terms(self):
         words = ["cases/dam_break_2d/case.yaml", "--set", "let.dx=a/10", "--threads", "1"]
         run = gannet("run", *words, "--until", "30 ms", "--out", str(self.out))
