@@ -7,10 +7,10 @@
 #include <cstddef>
 
 #include "base/parallel.hpp"
-#include "contact/linked_weight.hpp"
 #include "contact/particle_list.hpp"
 #include "contact/track_contact.hpp"
 #include "plan/effect.hpp"
+#include "plan/linked_weight.hpp"
 #include "plan/model_of_part.hpp"
 
 namespace gannet {

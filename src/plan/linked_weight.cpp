@@ -1,4 +1,4 @@
-#include "contact/linked_weight.hpp"
+#include "plan/linked_weight.hpp"
 
 #include <algorithm>
 
