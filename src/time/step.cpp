@@ -65,15 +65,24 @@ bool may_go_on(const Model& model) {
   return model.step.dt <= longest;
 }
 
-void advance_time(std::span<Model* const> level) {
-  for (Model* model : level) {
-    Step& s = model->step;
-    const bool arrives = model->substeps_left == 1;
-    s.t = arrives ? model->target : s.t + s.dt;
-    s.dt_old = s.dt;
-    ++s.n;
-    if (model->substeps_left > 0) --model->substeps_left;
-  }
+/// The time of the level that the step of a model leads to.
+double next_level(const Model& model) {
+  return model.substeps_left == 1 ? model.target : model.step.t + model.step.dt;
+}
+
+void advance_time(Model& model) {
+  Step& s = model.step;
+  s.t = next_level(model);
+  s.dt_old = s.dt;
+  ++s.n;
+  if (model.substeps_left > 0) --model.substeps_left;
+}
+
+/// The way of a model to its next level.
+void move(Model& model) {
+  Model* alone[] = {&model};
+  for (const Stage stage : {Stage::half_drift, Stage::rates, Stage::drift}) run(alone, stage);
+  advance_time(model);
 }
 
 }  // namespace
@@ -107,7 +116,7 @@ void choose_dt(std::span<Model* const> level) {
     }
     if (k > 0) {
       const Model& slower = *level[k - 1];
-      model.target = slower.substeps_left == 1 ? slower.target : slower.step.t + slower.step.dt;
+      model.target = next_level(slower);
       model.substeps_left = 0;
     }
     if (may_go_on(model)) continue;
@@ -125,10 +134,7 @@ void step(std::span<Model* const> level) {
   run(level, Stage::accelerate);
   run(level, Stage::kick);
   run(level, Stage::look);
-  run(level, Stage::half_drift);
-  run(level, Stage::rates);
-  run(level, Stage::drift);
-  advance_time(level);
+  move(*level.back());
 }
 
 void evaluate_start(Models& models) {
@@ -148,6 +154,10 @@ void advance(Models& models) {
     }
     for (Model* m : level) m->step.coincides = level.size() == models.list.size();
     step(level);
+    for (std::size_t k = models.list.size() - 1; k > 0; --k) {
+      if (models.list[k].step.t != next_level(models.list[k - 1])) break;
+      move(models.list[k - 1]);
+    }
   } while (models.list.back().step.t != models.list.front().step.t);
 }
 

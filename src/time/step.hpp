@@ -9,6 +9,10 @@
 //   half drift   x(n+1/2) = x(n) + v dt/2; when stale: wrap, sort, new lists; ghosts
 //   rates        pair pass 1 at x(n+1/2), v(n+1/2); rho(n+1), p(n+1)
 //   drift        x(n+1) = x(n+1/2) + v dt/2 + X dt; ghosts
+//
+// With several models the last three stages of a slower one wait until the faster ones have arrived
+// where its step ends: their nodes do not ask where its own are meanwhile, and what of its own
+// rides on theirs goes the way that they went.
 #pragma once
 
 #include <span>
@@ -18,13 +22,15 @@
 
 namespace gannet {
 
-/// Advances the models that stand at one level by one step each, stage by stage, slowest first.
-/// All of `level` have the same step.t; the first takes the step that its plan allows, each other
-/// a whole fraction of the one before. Throws RunError where no step is possible.
+/// Begins a step of the models that stand at one level, stage by stage, slowest first, and moves
+/// the last of them to its next level; the others stay before half drift. All of `level` have the
+/// same step.t; the first takes the step that its plan allows, each other a whole fraction of the
+/// one before. Throws RunError where no step is possible.
 void step(std::span<Model* const> level);
 
-/// Advances all models until the slowest has made one step and the others have caught up: again
-/// and again, the models furthest behind make a step together. Levels coincide before and after.
+/// Advances all models until the slowest has made one step: again and again, the models at the time
+/// of the fastest begin a step together, and whoever the faster ones have caught up with moves on.
+/// Levels coincide before and after.
 void advance(Models& models);
 
 /// Runs the force stage of all models at the start, as the first step will do again: the votes on
