@@ -46,7 +46,6 @@ void collect_turns(const Nodes& nodes, Link& link, LedgerEntry& entry) {
     if (!nodes.rotating.contains(link.nodes[k])) continue;
     const Vec3 mean = 0.5 * (xyz(link.moment[k]) + xyz(link.moment_level[k]));
     if (link.slow->step.dt_old > 0) entry.value += mean.dot(xyz(link.turned[k]));
-    set_xyz(link.moment_level[k], xyz(link.moment[k]));
     set_xyz(link.turned[k], Vec3::Zero());
   }
 }
@@ -55,6 +54,21 @@ void clear_nodes(Nodes& nodes, const Link& link) {
   for (const Index i : link.nodes) {
     nodes.f[i] = {};
     if (nodes.rotating.contains(i)) set_xyz(nodes.torque[i], Vec3::Zero());
+  }
+}
+
+/// Keeps what the fast model has put on bodies so far.
+void keep_forces(const Nodes& nodes, Link& link) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    link.f_kept[k] = nodes.f[link.nodes[k]];
+    link.torque_kept[k] = nodes.torque[link.nodes[k]];
+  }
+}
+
+void give_forces_back(Nodes& nodes, const Link& link) {
+  for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+    nodes.f[link.nodes[k]] = link.f_kept[k];
+    set_xyz(nodes.torque[link.nodes[k]], xyz(link.torque_kept[k]));
   }
 }
 
@@ -70,7 +84,6 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
     if (link.held) {
       link.force_old[k] = link.f_level[k];
       link.moment_old[k] = link.moment_level[k];
-      set_xyz(link.moment_level[k], xyz(link.moment[k]));
     }
     link.path[k] = {};
     if (link.slow->step.dt_old > 0) {
@@ -81,9 +94,12 @@ void collect(Nodes& nodes, Link& link, LedgerEntry& entry) {
     set_xyz(link.f_level[k], f);
   }
   clear_nodes(nodes, link);
-  if (!link.of_elements) return;
-  collect_turns(nodes, link, entry);
-  give_velocities_back(nodes, link);
+  if (link.turns()) collect_turns(nodes, link, entry);
+  for (std::size_t k = 0; k < link.moment_level.size(); ++k) {
+    set_xyz(link.moment_level[k], xyz(link.moment[k]));
+  }
+  if (link.of_elements) give_velocities_back(nodes, link);
+  if (link.of_bodies) give_forces_back(nodes, link);
 }
 
 /// What a held force, `now` at the last level of the slow model and `before` at the one before it,
@@ -110,6 +126,11 @@ void apply_held(Nodes& nodes, Link& link) {
 }
 
 void apply(Nodes& nodes, Link& link) {
+  if (link.of_bodies) {
+    for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+      link.omega_kept[k] = nodes.omega[link.nodes[k]];
+    }
+  }
   if (link.held) return apply_held(nodes, link);
   link.ratio = 0;
   if (!same_level(link)) return;
@@ -123,14 +144,37 @@ void apply(Nodes& nodes, Link& link) {
   }
 }
 
+/// What a body turns by in the half steps before and after this level [rad].
+WorkPath turn_of_body(const Nodes& nodes, const Link& link, std::size_t k) {
+  WorkPath turn;
+  turn.col(0) = 0.5 * link.fast->step.dt_old * xyz(link.omega_kept[k]);
+  turn.col(1) = 0.5 * link.fast->step.dt * xyz(nodes.omega[link.nodes[k]]);
+  return turn;
+}
+
 /// Takes off the work of held forces, which act at every level of the fast model.
 void measure_held(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
   Work work = Work::Zero();
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const Vec3 f = xyz(link.force[k]) + xyz(link.beyond[k]);
     work += work_along(work_path(nodes, link.nodes[k], link.fast->step), f);
+    if (!link.of_bodies) continue;
+    work +=
+        work_along(turn_of_body(nodes, link, k), xyz(link.moment[k]) + xyz(link.moment_beyond[k]));
   }
   entry.add_work(-work);
+}
+
+/// Angular velocity at a coinciding level, after the kick [rad/s].
+Vec3 omega_at_level(const Nodes& nodes, const Link& link, std::size_t k) {
+  const auto i = static_cast<std::size_t>(link.nodes[k]);
+  const Step& fast = link.fast->step;
+  if (link.of_bodies) {
+    return (fast.dt * xyz(link.omega_kept[k]) + fast.dt_old * xyz(nodes.omega[i])) /
+           (fast.dt_old + fast.dt);
+  }
+  const double half = 0.5 * fast.dt * nodes.omega[i].w;
+  return xyz(nodes.omega[i]) - half * xyz(nodes.torque[i]);
 }
 
 /// Takes off the work of the impulses at a coinciding level. The kinetic energy at level n is taken
@@ -143,10 +187,8 @@ void measure(const Nodes& nodes, const Link& link, LedgerEntry& entry) {
   for (std::size_t k = 0; k < link.nodes.size(); ++k) {
     const Vec3 v = velocity_at_level(nodes, link.nodes[k], link.fast->step.dt);
     work += xyz(link.force[k]).dot(v);
-    if (!link.of_elements || !nodes.rotating.contains(link.nodes[k])) continue;
-    const auto i = static_cast<std::size_t>(link.nodes[k]);
-    const double half = 0.5 * link.fast->step.dt * nodes.omega[i].w;
-    work += xyz(link.moment[k]).dot(xyz(nodes.omega[i]) - half * xyz(nodes.torque[i]));
+    if (!link.turns() || !nodes.rotating.contains(link.nodes[k])) continue;
+    work += xyz(link.moment[k]).dot(omega_at_level(nodes, link, k));
   }
   entry.add_work(-0.5 * work * Work(slow.dt_old, slow.dt));
 }
@@ -222,31 +264,32 @@ void open_link(Scene& scene, Link& link) {
   track("f_level", "N", link.f_level);
   for (std::size_t k = 0; k < n; ++k) link.places.emplace_back(link.nodes[k], k);
   std::sort(link.places.begin(), link.places.end());
+  const auto make = [n](std::initializer_list<Array<Line>*> arrays) {
+    for (Array<Line>* lines : arrays) lines->assign(n, {});
+  };
   link.held = !link.of_elements && holds_forces(scene, *link.fast);
-  if (link.held) {
-    for (Array<Line>* lines : {&link.force_old, &link.moment_old, &link.beyond, &link.moment_beyond,
-                               &link.moment_level}) {
-      lines->assign(n, {});
-    }
+  if (link.held) make({&link.force_old, &link.moment_old, &link.beyond, &link.moment_beyond});
+  if (link.of_elements) make({&link.v_kept, &link.omega_kept});
+  if (link.of_bodies) make({&link.omega_kept, &link.f_kept, &link.torque_kept});
+  if (link.held || link.turns()) {
+    make({&link.moment_level});
     track("moment_level", "N m", link.moment_level);
   }
-  if (link.of_elements) {
-    for (Array<Line>* lines : {&link.moment_level, &link.turned, &link.v_kept, &link.omega_kept}) {
-      lines->assign(n, {});
-    }
-    track("moment_level", "N m", link.moment_level);
+  if (link.turns()) {
+    make({&link.turned});
     track("turned", "rad", link.turned);
     link.fast->plan.add({.name = "turns of link " + link.name,
-                         .reason = "elements of model " + link.slow->name + " turn with its nodes",
+                         .reason = "what model " + link.slow->name + " pushes turns with its nodes",
                          .stage = Stage::drift,
                          .reads = {"omega"},
                          .run = [&scene, &link](const Step&) { add_turns(scene.nodes, link); }});
   }
   link.slow->plan.add({.name = "clear link " + link.name,
                        .reason = "the nodes belong to model " + link.fast->name,
-                       .stage = Stage::force,
+                       .stage = link.stage(),
                        .writes = {"f"},
                        .run = [&scene, &link](const Step&) {
+                         if (link.of_bodies) keep_forces(scene.nodes, link);
                          clear_nodes(scene.nodes, link);
                          if (link.of_elements) lend_mean_velocities(scene.nodes, link);
                        }});
@@ -259,7 +302,7 @@ void close_link(Scene& scene, Link& link, Ledger& ledger) {
   link.slow->plan.add(
       {.name = "collect link " + link.name,
        .reason = reason,
-       .stage = Stage::force,
+       .stage = link.stage(),
        .reads = {"f", "x"},
        .owns = {"link." + link.name},
        .run = [&scene, &link, &entry](const Step&) { collect(scene.nodes, link, entry); }});

@@ -45,10 +45,21 @@ struct Link {
   /// The nodes belong to elements of the slow model, which take strains from velocities: while its
   /// forces are computed the nodes have their mean velocities over its last step.
   bool of_elements = false;
+  /// The nodes are centres of rigid bodies, and the slow model knows what pushes them in its stage
+  /// accelerate only: there the forces are collected, and what the fast model has put on the nodes
+  /// by then is kept for it.
+  bool of_bodies = false;
   Array<Line> moment_level;  ///< slow moment at the last level [N m]
   Array<Line> turned;        ///< sum of omega dt since then [rad]
   Array<Line> v_kept;        ///< the nodes' own velocities meanwhile [m/s]
-  Array<Line> omega_kept;    ///< [rad/s]
+  Array<Line> omega_kept;    ///< [rad/s]; of bodies: before the last kick
+  Array<Line> f_kept;        ///< of bodies: force of the fast model [N]
+  Array<Line> torque_kept;   ///< [N m]
+
+  /// Where the slow model pushes the nodes.
+  [[nodiscard]] Stage stage() const { return of_bodies ? Stage::accelerate : Stage::force; }
+  /// Whether moments act through the link, whose work is along what the nodes turn by.
+  [[nodiscard]] bool turns() const { return of_elements || of_bodies; }
 };
 
 /// All links of a scene, as they were opened: scene.store.get<Links>().
@@ -71,12 +82,13 @@ Excess excess_of_impulses(const Scene& scene, const Vec3& about,
 /// the levels of the slow model.
 Vec3 excess_on_node(const Scene& scene, Index node);
 
-/// Opens the link: in the slow model's force stage, clears the forces of the linked nodes. Call it
-/// before the operations of the slow model that push them are added.
+/// Opens the link: in the slow model's force stage, of bodies in its stage accelerate, clears the
+/// forces of the linked nodes. Call it before the operations of the slow model that push them are
+/// added.
 void open_link(Scene& scene, Link& link);
 
-/// Closes the link, after all operations that push the linked nodes were added: at the end of the
-/// slow model's force stage the forces move to the slow slot; in the fast model's accelerate stage
+/// Closes the link, after all operations that push the linked nodes were added: at the end of that
+/// stage of the slow model the forces move to the slow slot; in the fast model's accelerate stage
 /// they are applied at coinciding levels; the ledger's entry "link" holds what the impulses and
 /// the paths differ by. The link must stay where it is.
 /// Operations of the slow model measure the work of their forces on the linked nodes along

@@ -11,7 +11,7 @@ void add_weight(Scene& scene, Model& model, const Link& link, const std::vector<
   model.plan.add(
       {.name = sign > 0 ? "weight of what the water carries" : "weight acts with the water",
        .reason = "rule: " + link.name + " acts in impulses, and so does what it carries",
-       .stage = Stage::force,
+       .stage = sign > 0 ? link.stage() : Stage::force,
        .reads = {"m"},
        .writes = {"f"},
        .run = [&scene, bodies, sign](const Step&) {

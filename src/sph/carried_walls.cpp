@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "plan/effect.hpp"
+#include "sph/linked_walls.hpp"
 
 namespace gannet {
 
@@ -13,41 +14,32 @@ bool any_on_body(const Walls& walls) {
   return std::ranges::any_of(walls.list, [](const Wall& wall) { return wall.on_body; });
 }
 
-/// What the centre moved with before the kick: {velocity, angular velocity}.
-struct Rates {
-  Vec3 v;
-  Vec3 omega;
-};
-
-Rates rates_of(const Scene& scene, const Carrier& carrier) {
+MeanRates rates_of(const Scene& scene, const Carrier& carrier) {
   const auto c = static_cast<std::size_t>(carrier.node);
   return {xyz(scene.nodes.v[c]), xyz(scene.nodes.omega[c])};
 }
 
-void gather(Walls& walls, const SphState& sph, const Scene& scene) {
-  struct Sum {
-    Vec3 force = Vec3::Zero();
-    Vec3 moment = Vec3::Zero();
-  };
-  for (Wall& wall : walls.list) {
-    if (wall.carrier == nullptr) continue;
-    const Mat3 R = wall.carrier->q.toRotationMatrix();
-    wall.carrier->force = wall.force;
-    wall.carrier->moment = sum_over_awake(scene, wall.part, [&](Index k) -> Vec3 {
-      return (R * xyz(walls.arm[k])).cross(xyz(walls.f[k]));
-    });
-    wall.share = 1 / (2 + sph.m * wall.ease);
-    const Rates before = rates_of(scene, *wall.carrier);
-    wall.v_before = before.v;
-    wall.omega_before = before.omega;
-  }
+Vec3 moment_on(const Walls& walls, const Wall& wall, const Scene& scene) {
+  const Mat3 R = wall.carrier->q.toRotationMatrix();
+  return sum_over_awake(scene, wall.part, [&](Index k) -> Vec3 {
+    return (R * xyz(walls.arm[k])).cross(xyz(walls.f[k]));
+  });
 }
 
-/// Takes part of what the last kick did into the acceleration that pressures follow.
-void follow_acceleration(Wall& wall, const Scene& scene, double dt) {
-  const Rates now = rates_of(scene, *wall.carrier);
-  wall.a += wall.share * ((now.v - wall.v_before) / dt - wall.a);
-  wall.alpha += wall.share * ((now.omega - wall.omega_before) / dt - wall.alpha);
+void gather(Walls& walls, const SphState& sph, const Scene& scene, const Step& step) {
+  for (Wall& wall : walls.list) {
+    if (wall.carrier == nullptr) continue;
+    wall.moment = moment_on(walls, wall, scene);
+    wall.share = 1 / (2 + sph.m * wall.ease);
+    const MeanRates before = wall.link != nullptr ? mean_rates(wall, scene, step.dt_old)
+                                                  : rates_of(scene, *wall.carrier);
+    wall.v_before = before.v;
+    wall.omega_before = before.omega;
+    wall.q_level = wall.carrier->q;
+    if (wall.link != nullptr) continue;
+    wall.carrier->force = wall.force;
+    wall.carrier->moment = wall.moment;
+  }
 }
 
 double stable_step_on_bodies(const Walls& walls, const SphState& sph) {
@@ -86,9 +78,14 @@ void add_gathering(Walls& walls, SphState& sph, Scene& scene, Plan& plan) {
        .reason = asked_for_at(first->where),
        .stage = Stage::accelerate,
        .reads = {"x", "q"},
-       .run = [&](const Step&) { gather(walls, sph, scene); },
+       .run = [&](const Step& step) { gather(walls, sph, scene, step); },
        .stable_dt = [&] { return stable_step_on_bodies(walls, sph); },
        .limited_by = [] { return "the mass of a body, beside that of the water at its skin"; }});
+}
+
+void follow_acceleration(Wall& wall, const Vec3& v, const Vec3& omega, double dt) {
+  wall.a += wall.share * ((v - wall.v_before) / dt - wall.a);
+  wall.alpha += wall.share * ((omega - wall.omega_before) / dt - wall.alpha);
 }
 
 Vec3 acceleration_on_body(const Wall& wall, const Scene& scene, const Vec3& arm) {
@@ -106,15 +103,16 @@ void kick_carried_walls(Walls& walls, Scene& scene, const Step& step) {
   std::vector<Motion> motion(walls.list.size());
   for (std::size_t w = 0; w < walls.list.size(); ++w) {
     Wall& wall = walls.list[w];
-    if (wall.carrier == nullptr) continue;
+    if (wall.carrier == nullptr || wall.link != nullptr) continue;
     const Carrier& carrier = *wall.carrier;
-    motion[w] = {rates_of(scene, carrier).v,
+    const MeanRates now = rates_of(scene, carrier);
+    motion[w] = {now.v,
                  (carrier.q_next.toRotationMatrix() - carrier.q.toRotationMatrix()) / step.dt};
-    follow_acceleration(wall, scene, dt);
+    follow_acceleration(wall, now.v, now.omega, dt);
   }
   const auto first = static_cast<std::size_t>(scene.particles.begin);
   for_wall_particles(walls, scene, [&](Index k, const Wall& wall) {
-    if (wall.carrier == nullptr) return;
+    if (wall.carrier == nullptr || wall.link != nullptr) return;
     const Motion& m = motion[static_cast<std::size_t>(&wall - walls.list.data())];
     const std::size_t i = first + static_cast<std::size_t>(k);
     const Vec3 v = m.v + m.turn * xyz(walls.arm[k]);

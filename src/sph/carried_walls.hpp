@@ -30,10 +30,16 @@ void read_carried_walls(const Keys& root, const Scene& scene, Walls& walls);
 /// 0.2 and 1 kg/m^3 that rest on water are lost between 8/omega and 12/omega.
 void add_gathering(Walls& walls, SphState& sph, Scene& scene, Plan& plan);
 
+/// Takes a share of what the body did from the step before this level to the step after it into the
+/// acceleration that pressures follow. v, omega: in the step after it [m/s, rad/s]; dt: from one
+/// middle to the other [s].
+void follow_acceleration(Wall& wall, const Vec3& v, const Vec3& omega, double dt);
+
 /// Acceleration of a point of a body [m/s^2]: a' + alpha' x r + omega x (omega x r). arm: 3 [m].
 Vec3 acceleration_on_body(const Wall& wall, const Scene& scene, const Vec3& arm);
 
-/// Gives the particles of walls on bodies their velocity, after the kick of the bodies. As with
+/// Gives the particles of walls on bodies of their own model their velocity, after the kick of the
+/// bodies; those of faster models are not there yet (sph/linked_walls.hpp). As with
 /// every member of a body, f becomes the acceleration and 1/m one, until half drift, so that
 /// work_path() sees the way that they go.
 void kick_carried_walls(Walls& walls, Scene& scene, const Step& step);

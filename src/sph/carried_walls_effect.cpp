@@ -8,6 +8,7 @@
 #include "sph/carried_walls.hpp"
 #include "sph/effects.hpp"
 #include "sph/inner_layers.hpp"
+#include "sph/linked_walls.hpp"
 #include "sph/wall_parts.hpp"
 
 namespace gannet {
@@ -131,12 +132,10 @@ void put_on_body(Walls& walls, Scene& scene, Wall& wall) {
 }
 
 void add_moment(Scene& scene, const Wall& wall) {
-  scene.measures.push_back({"wall." + wall.name + ".moment",
-                            "N m",
-                            {"x", "y", "z"},
-                            [carrier = wall.carrier](double* out) {
-                              for (int d = 0; d < 3; ++d) out[d] = carrier->moment[d];
-                            }});
+  scene.measures.push_back(
+      {"wall." + wall.name + ".moment", "N m", {"x", "y", "z"}, [&wall](double* out) {
+         for (int d = 0; d < 3; ++d) out[d] = wall.moment[d];
+       }});
 }
 
 void operations(const Keys& root, Scene& scene, Models& models) {
@@ -148,15 +147,18 @@ void operations(const Keys& root, Scene& scene, Models& models) {
     Carrier* carrier = wall.on_body ? carriers.find(wall.name) : nullptr;
     if (carrier == nullptr) continue;
     const Keys keys = root.map("bodies").map(wall.name);
-    if (&models.of_node(carrier->node) != &model) {
-      keys.complain("walls",
-                    "dummy particles belong to the model of the water, and the body to "
-                    "another; name the body's parts beside the water, or use contact");
+    Model& of_body = models.of_node(carrier->node);
+    if (models.rank(of_body) < models.rank(model)) {
+      keys.complain("walls", fmt::format("dummy particles advance with the water, in model '{}', "
+                                         "and the body in the slower '{}': list the model of the "
+                                         "water first, or name the body's parts in it",
+                                         model.name, of_body.name));
       continue;
     }
     wall.carrier = carrier;
     put_on_body(walls, scene, wall);
     add_moment(scene, wall);
+    if (&of_body != &model) link_wall(walls, scene, models, wall, model, of_body);
   }
   const std::string reason = asked_for_at(walled_bodies(root).front().where("walls"));
   model.plan.add({.name = "motion of walls on bodies",

@@ -1,11 +1,13 @@
 // Walls of dummy particles: what they are, how they move, what the fluid does to them.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/time_table.hpp"
+#include "plan/link.hpp"
 #include "plan/plan.hpp"
 #include "scene/carrier.hpp"
 #include "scene/scene.hpp"
@@ -36,6 +38,7 @@ struct Wall {
   std::shared_ptr<const WaveField> waves;  ///< whose water it moves as; none: it does not
   bool on_body = false;                    ///< it rides on the body of its name
   Carrier* carrier = nullptr;              ///< that body, once it is made
+  const Link* link = nullptr;              ///< to a body of a faster model (sph/linked_walls.hpp)
   // Of a wall on a body, tracked: how the body is taken to accelerate (sph/carried_walls.hpp).
   Vec3 a = Vec3::Zero();      ///< its centre [m/s^2]
   Vec3 alpha = Vec3::Zero();  ///< its rotation [rad/s^2]
@@ -43,10 +46,12 @@ struct Wall {
   // Within a step:
   double ease = 0;                   ///< sum of 1/M + r^2/I_min over wet particles [1/kg]
   double share = 0;                  ///< theta
-  Vec3 v_before = Vec3::Zero();      ///< of the centre, before the kick [m/s]
+  Vec3 v_before = Vec3::Zero();      ///< of the centre, in the step before the level [m/s]
   Vec3 omega_before = Vec3::Zero();  ///< [rad/s]
+  Quaternion q_level = Quaternion::Identity();  ///< of the body, at the level
   // What the last step says, at level n:
   Vec3 force = Vec3::Zero();          ///< of the fluid on the wall [N]
+  Vec3 moment = Vec3::Zero();         ///< the same about the centre of the body that it is on [N m]
   Vec3 viscous_force = Vec3::Zero();  ///< the viscous part of it [N]
 };
 
@@ -62,6 +67,7 @@ struct WallTerm {
 /// of walls alone.
 struct Walls {
   std::vector<Wall> list;
+  std::deque<Link> links;       ///< to bodies of faster models
   std::vector<int> of_part;     ///< which wall a part is; -1: none
   std::int64_t built = -1;      ///< SphState::n_builds of the lists below
   Array<std::uint8_t> is_wall;  ///< one a source

@@ -139,11 +139,14 @@ void make_state(const Keys& root, Scene& scene) {
 
 bool has_walls(const Scene& scene) { return scene.store.has<Walls>(); }
 
-/// Work of the forces on a wall along the path of its particles at level n [J].
+/// Work of the forces on a wall along the path of its particles at level n [J]; nothing yet for the
+/// half step after it where its body has still to go it.
 Work work_on(const Scene& scene, const Wall& wall, const Array<Line>& force, const Step& step) {
-  return sum_over_awake(scene, wall.part, [&](Index k) -> Work {
+  Work work = sum_over_awake(scene, wall.part, [&](Index k) -> Work {
     return work_along(work_path(scene.nodes, scene.particles.begin + k, step), xyz(force[k]));
   });
+  if (wall.link != nullptr) work[1] = 0;
+  return work;
 }
 
 void add_measures(Scene& scene, const Wall& wall) {

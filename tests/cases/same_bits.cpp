@@ -111,10 +111,11 @@ Sample moored_sample() {
 }
 
 Sample held_sample() {
-  std::string text = moored;
-  const std::string lines = "lines: {parts: [left, right]}";
-  text.replace(text.find(lines), lines.size(), "lines: {parts: [left, right], slow_forces: held}");
-  return {[text] { return std::make_unique<WatchedRun>(text); }, 150, false};
+  return {[] { return std::make_unique<WatchedRun>(held(moored)); }, 150, false};
+}
+
+Sample linked_walls_sample() {
+  return {[] { return std::make_unique<WatchedRun>(held(walled(moored))); }, 150, false};
 }
 
 Sample solids_sample(const std::string& formulation) {
@@ -410,6 +411,12 @@ TEST_CASE("same bits: forces held through substeps, 1, 2, 3 and 5 threads, and r
           "[bits]") {
   check_threads(held_sample());
   check_restart(held_sample());
+}
+
+TEST_CASE("same bits: walls on a body of a faster model, 1, 2, 3 and 5 threads, and restarts",
+          "[bits]") {
+  check_threads(linked_walls_sample());
+  check_restart(linked_walls_sample());
 }
 
 TEST_CASE("same bits: parts tied across models, 1, 2, 3 and 5 threads, and restarts", "[bits]") {

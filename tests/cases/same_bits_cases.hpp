@@ -298,6 +298,23 @@ probes: {box: {body: box}}
 output: {until: 10 s, checkpoint: never}
 )case";
 
+/// The same with the forces of the water held through the substeps.
+inline std::string held(std::string text) {
+  const std::string lines = "lines: {parts: [left, right]}";
+  return text.replace(text.find(lines), lines.size(),
+                      "lines: {parts: [left, right], slow_forces: held}");
+}
+
+/// The same without contact: dummy particles back the skin of the box, and water sticks to it.
+inline std::string walled(std::string text) {
+  const auto put = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  put("density: 400,", "density: 400, walls: dummy, slip: none,");
+  put("contacts: {hull: {between: [pool, box], friction: 0.2, damping: 0.05}}\n", "");
+  return text;
+}
+
 /// A roof of two slopes that yields as it is dented, 2,000 shells: warped, folded, thinning.
 inline std::string shells(const std::string& formulation) {
   return R"case(gannet: 1
