@@ -12,7 +12,6 @@
 #include "plan/vote_of_part.hpp"
 #include "scene/bonds.hpp"
 #include "scene/part_nodes.hpp"
-#include "sph/wall_state.hpp"
 #include "time/step.hpp"
 
 namespace gannet {
@@ -49,12 +48,6 @@ Units units_of(Scene& scene) {
   for (const PartGroup& group : scene.groups) {
     for (const int p : group.parts) units.join(group.parts.front(), p);
     for (const Index node : group.nodes) units.join(group.parts.front(), part_of(scene, node));
-  }
-  if (const Walls* walls = scene.store.find<Walls>()) {
-    for (const Wall& wall : walls->list) {
-      const PartGroup* body = wall.on_body ? scene.group(wall.name) : nullptr;
-      if (body != nullptr) units.join(wall.part, body->parts.front());
-    }
   }
   if (const Bonds* bonds = scene.store.find<Bonds>()) {
     for (const Bond& bond : bonds->list) {

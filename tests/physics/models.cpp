@@ -185,25 +185,23 @@ TEST_CASE("models: auto groups parts by the steps that they allow", "[physics]")
   CHECK(make_simulation_of_text(alike)->models.list.size() == 1);
 }
 
-TEST_CASE("models: auto keeps a body with walls in the model of the water", "[physics]") {
+TEST_CASE("models: auto lets a body with walls advance with its lines", "[physics]") {
   std::string text = moored(false);
   const auto put = [&](const std::string& what, const std::string& by) {
     text.replace(text.find(what), what.size(), by);
   };
   put("density: 500}", "density: 500, walls: dummy}");
   put("contacts: {hull: {between: [pool, box]}}", "models: auto");
-  put("bodies:",
-      R"(  spare: {cable: {EA: 100 MN, mass_per_length: 1 kg/m}, shape: {line: {from: [3, 0.5, 0], to: [4, 0.5, 0], elements: 20}}}
-bodies:)");
   const auto s = make_simulation_of_text(text);
   REQUIRE(s->models.list.size() == 2);
   const auto first_of = [&](const char* part) {
     return s->scene.parts[static_cast<std::size_t>(s->scene.part_number(part))].nodes.begin;
   };
-  const Model& water = s->models.of_node(s->scene.particles.begin);
-  CHECK(&s->models.of_node(first_of("body.box")) == &water);
-  CHECK(&s->models.of_node(first_of("left")) == &water);  // tied to it
-  CHECK(&s->models.of_node(first_of("spare")) != &water);
+  const Model& water = s->models.list.front();
+  CHECK(&s->models.of_node(first_of("pool")) == &water);
+  CHECK(&s->models.of_node(first_of("walls.box")) == &water);
+  CHECK(&s->models.of_node(first_of("body.box")) == &s->models.list.back());
+  CHECK(&s->models.of_node(first_of("left")) == &s->models.list.back());
   run_to(*s, 2e-3);
 }
 
