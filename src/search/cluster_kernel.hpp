@@ -26,9 +26,10 @@ struct ListJob {
   double z_min = 0;
   double width = 0;
   double radius = 0;
-  std::int32_t filler = 0;        ///< pads lists to even length
-  std::int32_t* out = nullptr;    ///< the lists, one after the other
-  std::int64_t capacity = 0;      ///< of out
+  const double* further = nullptr;  ///< how much further the list of a target reaches, or null [m]
+  std::int32_t filler = 0;          ///< pads lists to even length
+  std::int32_t* out = nullptr;      ///< the lists, one after the other
+  std::int64_t capacity = 0;        ///< of out
   std::int64_t* count = nullptr;  ///< length of each list, one entry for each cluster from `first`
 };
 

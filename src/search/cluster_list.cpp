@@ -141,9 +141,10 @@ void make_room(ClusterList& list, std::int64_t n, Index done) {
 }  // namespace
 
 void build_cluster_list(std::span<const Line> x, Index n_targets, double radius, ClusterList& list,
-                        Isa with, Range unseen) {
+                        Isa with, Range unseen, std::span<const double> further) {
   assert(radius > 0 && n_targets <= static_cast<Index>(x.size()));
   assert(unseen.empty() || n_targets <= unseen.begin);
+  assert(further.empty() || n_targets == static_cast<Index>(further.size()));
   list.n_targets = n_targets;
   list.n_sources = static_cast<Index>(x.size());
   list.n_clusters = (n_targets + ClusterList::lanes - 1) / ClusterList::lanes;
@@ -155,7 +156,8 @@ void build_cluster_list(std::span<const Line> x, Index n_targets, double radius,
   if (!list.workspace) list.workspace = std::make_shared<ListWorkspace>();
   ListWorkspace& work = *list.workspace;
   fill_table(x, unseen, radius, work.table);
-  const ListJob job = job_of(x, work.table, list);
+  ListJob job = job_of(x, work.table, list);
+  job.further = further.empty() ? nullptr : further.data();
   const Index n_chunks = (list.n_clusters + chunk_clusters - 1) / chunk_clusters;
   const auto n_scratch = static_cast<std::size_t>(std::min(n_chunks, wave_chunks));
   if (work.scratch.size() < n_scratch) work.scratch.resize(n_scratch);

@@ -18,9 +18,9 @@ namespace gannet {
 struct ListWorkspace;
 
 /// For every cluster of eight consecutive targets the sources within `radius` of its bounding box,
-/// the targets themselves included. Sources are numbered as particle fields are: targets (owned
-/// particles) [0, n_targets), then ghosts up to n_sources. The index n_sources stands for a
-/// particle far away and pads each list to an even length.
+/// or further where a target asks for more, the targets themselves included. Sources are numbered
+/// as particle fields are: targets (owned particles) [0, n_targets), then ghosts up to n_sources.
+/// The index n_sources stands for a particle far away and pads each list to an even length.
 struct ClusterList {
   static constexpr Index lanes = 8;
   static constexpr Index spare = 32;  ///< readable entries behind the last list
@@ -36,16 +36,15 @@ struct ClusterList {
 };
 
 /// Builds the list from the positions of all sources; every pair (target, source) at a distance of
-/// at most `radius` is in it. The list is a function of the arguments alone: not of the number of
-/// threads, nor of the instruction set. A restart that hands in the positions of the last build
-/// gets the same list.
-/// All clusters are active.
-/// x: positions [m] of n_sources particles, owned first, finite; n_targets <= x.size();
-/// radius: 2 h + skin [m], positive. Targets in no spatial order give a right but long list.
-/// with: the kernel's instruction set, for tests.
-/// unseen: sources, none of them a target, that are left out whatever their place.
+/// at most `radius` + further[target] is in it. The list is a function of the arguments alone: not
+/// of the number of threads, nor of the instruction set. A restart that hands in the positions of
+/// the last build gets the same list. All clusters are active. x: positions [m] of n_sources
+/// particles, owned first, finite; n_targets <= x.size(); radius: [m], positive. Targets in no
+/// spatial order give a right but long list. with: the kernel's instruction set, for tests. unseen:
+/// sources, none of them a target, that are left out whatever their place. further: n_targets
+/// lengths, not negative [m]; empty: 0 for all.
 void build_cluster_list(std::span<const Line> x, Index n_targets, double radius, ClusterList& list,
-                        Isa with = isa(), Range unseen = {});
+                        Isa with = isa(), Range unseen = {}, std::span<const double> further = {});
 
 /// The largest displacement since a build, relative to the mean displacement of all particles [m]:
 /// max_i |d_i - d_mean|, d_i = x_i - x_build_i. A list of radius 2 h + skin holds all pairs nearer

@@ -14,12 +14,20 @@ namespace {
 struct ClusterBox {
   float low[3];
   float high[3];
+  double radius;  ///< of its list [m]
 };
 
 GANNET_INLINE ClusterBox box_of(const ListJob& job, std::int32_t cluster) {
   ClusterBox box;
   const std::int32_t begin = 8 * cluster;
   const std::int32_t end = begin + 8 < job.n_targets ? begin + 8 : job.n_targets;
+  double further = 0;
+  if (job.further != nullptr) {
+    for (std::int32_t i = begin; i < end; ++i) {
+      further = job.further[i] > further ? job.further[i] : further;
+    }
+  }
+  box.radius = job.radius + further;
   for (int d = 0; d < 3; ++d) {
     box.low[d] = 3.0e38F;
     box.high[d] = -3.0e38F;
@@ -34,13 +42,13 @@ GANNET_INLINE ClusterBox box_of(const ListJob& job, std::int32_t cluster) {
 }
 
 /// Radius with room for the rounding of coordinates to single precision (2^-24 of them each).
-GANNET_INLINE double padded_radius(const ListJob& job, const ClusterBox& box) {
-  double largest = job.radius;
+GANNET_INLINE double padded_radius(const ClusterBox& box) {
+  double largest = box.radius;
   for (int d = 0; d < 3; ++d) {
     largest = -box.low[d] > largest ? -box.low[d] : largest;
     largest = box.high[d] > largest ? box.high[d] : largest;
   }
-  return job.radius + 8.0 * 5.97e-8 * (largest + job.radius);
+  return box.radius + 8.0 * 5.97e-8 * (largest + box.radius);
 }
 
 GANNET_INLINE std::int32_t clamp_column(double place, std::int32_t n) {
@@ -136,7 +144,7 @@ GANNET_INLINE std::int64_t scan(const ListJob& job, const ClusterBox& box, float
 /// Appends the list of one cluster; returns the new length of out, or -1 where it might not fit.
 GANNET_INLINE std::int64_t list_one(const ListJob& job, std::int32_t cluster, std::int64_t used) {
   const ClusterBox box = box_of(job, cluster);
-  const double r = padded_radius(job, box);
+  const double r = padded_radius(box);
   const auto r2 = static_cast<float>(r * r);
   const double w = job.width;
   const std::int32_t y0 = clamp_column((box.low[1] - r - job.y_min) / w, job.n_y);
@@ -151,7 +159,7 @@ GANNET_INLINE std::int64_t list_one(const ListJob& job, std::int32_t cluster, st
           gap_to_column(box.low[1], box.high[1], job.y_min + iy * w, w, iy == 0, iy == job.n_y - 1);
       const double left = r * r - ey * ey - ez * ez;
       if (left < 0) continue;
-      const auto reach = static_cast<float>(__builtin_sqrt(left) + (r - job.radius));
+      const auto reach = static_cast<float>(__builtin_sqrt(left) + (r - box.radius));
       const std::int32_t* s = job.start + (iz * job.n_y + iy);
       const std::int32_t begin = lower_bound(job.x, s[0], s[1], box.low[0] - reach);
       const std::int32_t end = lower_bound(job.x, begin, s[1], box.high[0] + reach);

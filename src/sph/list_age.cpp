@@ -41,10 +41,13 @@ void for_seen(std::span<const Line> x, Range unseen, F&& f) {
 Grid grid_of(std::span<const Line> x, Range unseen, double edge) {
   MotionBox box;
   for_seen(x, unseen, [&](Index k) { box.add(xyz(x[k])); });
-  Grid grid{box.low, edge, {}};
+  const Vec3 high = box.high.head<3>();
+  Grid grid{Vec3::Zero(), edge, {}};
   const double most = std::max(4096.0, 2.0 * static_cast<double>(x.size()));
-  while (true) {
-    const Vec3 n = ((box.high - box.low) / grid.edge).array().floor() + 1;
+  while (!box.empty()) {
+    // Cells stand where they stood at the last build, so that what was found out there holds here.
+    grid.low = grid.edge * (box.low.head<3>() / grid.edge).array().floor();
+    const Vec3 n = ((high - grid.low) / grid.edge).array().floor() + 1;
     if (n.prod() <= most) {
       for (std::size_t d = 0; d < 3; ++d) {
         grid.n[d] = static_cast<Index>(n[static_cast<Eigen::Index>(d)]);
@@ -53,6 +56,8 @@ Grid grid_of(std::span<const Line> x, Range unseen, double edge) {
     }
     grid.edge *= 1.25;
   }
+  grid.n = {1, 1, 1};
+  return grid;
 }
 
 /// Counting sort of the sources by cell.
@@ -76,96 +81,110 @@ Index neighbour_of(const ListAge& age, Index c, const std::array<Index, 3>& away
   return inside ? (k * age.n[1] + j) * age.n[0] + i : -1;
 }
 
-/// Whether cell c and one of these neighbours differ by more than they may.
-bool cell_is_outdated(const ListAge& age, Index c, std::span<const ListAge::Neighbour> neighbours) {
+/// Whether cell c and one of its neighbours differ by more than they may.
+bool cell_is_outdated(const ListAge& age, Index c) {
   const MotionBox& here = age.motion[c];
-  if (here.empty()) return false;
-  for (const ListAge::Neighbour& neighbour : neighbours) {
+  for (const ListAge::Neighbour& neighbour : age.neighbours) {
     const Index other = neighbour_of(age, c, neighbour.away);
     if (other < 0 || age.motion[other].empty()) continue;
-    if (largest_difference(here, age.motion[other]) > neighbour.allowed) return true;
+    const double allowed = std::max(std::min(age.skin[c], age.skin[other]), neighbour.allowed);
+    if (largest_difference(here, age.motion[other]) > allowed) return true;
   }
   return false;
 }
 
-/// Boxes of the motion of each row of cells along x.
-std::vector<MotionBox> motion_of_rows(const ListAge& age) {
-  std::vector<MotionBox> rows(static_cast<std::size_t>(age.n[1] * age.n[2]));
-  for (Index r = 0; r < static_cast<Index>(rows.size()); ++r) {
-    for (Index c = r * age.n[0]; c < (r + 1) * age.n[0]; ++c) rows[r].add(age.motion[c]);
-  }
-  return rows;
-}
-
-/// The neighbours by row: each stretch has the same steps along y and z.
-std::vector<std::span<const ListAge::Neighbour>> by_row(const ListAge& age) {
-  std::vector<std::span<const ListAge::Neighbour>> rows;
-  const auto& all = age.neighbours;
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    while (end < all.size() && all[end].away[1] == all[begin].away[1] &&
-           all[end].away[2] == all[begin].away[2]) {
-      ++end;
+/// Each box joined with those up to `range` away along one direction of n cells, `stride` apart.
+void join_along(const std::vector<MotionBox>& from, Index n, Index stride,
+                std::vector<MotionBox>& to) {
+  parallel_for(static_cast<Index>(from.size()) / n, 64, [&](Index begin, Index end) {
+    for (Index line = begin; line < end; ++line) {
+      const Index first = line / stride * stride * n + line % stride;
+      for (Index i = 0; i < n; ++i) {
+        MotionBox box;
+        const Index last = std::min(i + range, n - 1);
+        for (Index k = std::max(i - range, 0); k <= last; ++k) box.add(from[first + k * stride]);
+        to[first + i * stride] = box;
+      }
     }
-    rows.push_back(std::span(all).subspan(begin, end - begin));
-  }
-  return rows;
+  });
 }
 
-/// Whether cells of a row differ too much from those of the row that `neighbours` lie in. Most
-/// rows need no look at their cells: as wholes they do not differ by that much.
-bool rows_are_outdated(const ListAge& age, std::span<const MotionBox> rows, Index row,
-                       std::span<const ListAge::Neighbour> neighbours) {
-  const Index first = row * age.n[0];
-  const Index other = neighbour_of(age, first, {0, neighbours[0].away[1], neighbours[0].away[2]});
-  if (other < 0 || rows[other / age.n[0]].empty()) return false;
-  double least = neighbours[0].allowed;
-  for (const ListAge::Neighbour& n : neighbours) least = std::min(least, n.allowed);
-  if (largest_difference(rows[row], rows[other / age.n[0]]) <= least) return false;
-  for (Index c = first; c < first + age.n[0]; ++c) {
-    if (cell_is_outdated(age, c, neighbours)) return true;
-  }
-  return false;
+/// The motion of each cell and its neighbours together.
+std::vector<MotionBox> motion_around(const ListAge& age) {
+  std::vector<MotionBox> around(age.motion.size());
+  std::vector<MotionBox> work(age.motion.size());
+  join_along(age.motion, age.n[0], 1, around);
+  join_along(around, age.n[1], age.n[0], work);
+  join_along(work, age.n[2], age.n[0] * age.n[1], around);
+  return around;
+}
+
+/// Gives the targets of each cell the largest skin among them.
+void even_out(std::span<double> skin, ListAge& age) {
+  const auto n_targets = static_cast<Index>(skin.size());
+  age.skin.resize(static_cast<std::size_t>(age.n_cells()));
+  parallel_for(age.n_cells(), 64, [&](Index begin, Index end) {
+    for (Index c = begin; c < end; ++c) {
+      double largest = 0;
+      for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
+        const Index i = age.member[k];
+        if (i < n_targets) largest = std::max(largest, skin[i]);
+      }
+      for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
+        if (age.member[k] < n_targets) skin[age.member[k]] = largest;
+      }
+      age.skin[c] = largest > 0 ? largest : std::numeric_limits<double>::infinity();
+    }
+  });
 }
 
 }  // namespace
 
-void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age,
-                  Range unseen) {
+void start_ageing(std::span<const Line> x, std::span<double> skin, double support, double dx,
+                  ListAge& age, Range unseen) {
   const Grid grid = grid_of(x, unseen, (support + far_allowance * dx) / range);
   sort_by_cell(x, unseen, grid, age);
+  even_out(skin, age);
   age.allowed_elsewhere = range * grid.edge - support;
   age.neighbours.clear();
   const auto gap = [&](Index steps) { return grid.edge * std::max(std::abs(steps) - 1, 0); };
-  for (Index k = 0; k <= range; ++k) {
+  for (Index k = -range; k <= range; ++k) {
     for (Index j = -range; j <= range; ++j) {
       for (Index i = -range; i <= range; ++i) {
-        if (k == 0 && (j < 0 || (j == 0 && i < 0))) continue;
         const double apart = Vec3(gap(i), gap(j), gap(k)).norm();
-        age.neighbours.push_back({{i, j, k}, std::max(skin, apart - support)});
+        age.neighbours.push_back({{i, j, k}, apart - support});
       }
     }
   }
 }
 
 bool outdated(const ListAge& age) {
-  const std::vector<MotionBox> rows = motion_of_rows(age);
+  const std::vector<MotionBox> around = motion_around(age);
   MotionBox all;
-  for (const MotionBox& box : rows) all.add(box);
+  for (const MotionBox& box : age.motion) all.add(box);
   if (largest_difference(all, all) > age.allowed_elsewhere) return true;
-  const auto neighbours = by_row(age);
   const int found = parallel_reduce(
-      static_cast<Index>(rows.size()), 4, 0,
+      age.n_cells(), 64, 0,
       [&](Index begin, Index end) {
-        for (Index row = begin; row < end; ++row) {
-          if (rows[row].empty()) continue;
-          for (const auto& stretch : neighbours) {
-            if (rows_are_outdated(age, rows, row, stretch)) return 1;
-          }
+        for (Index c = begin; c < end; ++c) {
+          if (age.motion[c].empty()) continue;
+          // Most cells need no look at their neighbours: they do not differ from all of them.
+          if (largest_difference(age.motion[c], around[c]) <= age.skin[c]) continue;
+          if (cell_is_outdated(age, c)) return 1;
         }
         return 0;
       },
       [](int a, int b) { return a | b; });
   return found != 0;
+}
+
+std::vector<double> relative_motion(const ListAge& age) {
+  const std::vector<MotionBox> around = motion_around(age);
+  std::vector<double> motion(around.size(), 0);
+  for (std::size_t c = 0; c < motion.size(); ++c) {
+    if (!age.motion[c].empty()) motion[c] = largest_difference(age.motion[c], around[c]);
+  }
+  return motion;
 }
 
 }  // namespace gannet

@@ -1,13 +1,15 @@
 // How long neighbour lists stay right. A list holds every pair that was nearer than 2 h + skin
 // when it was built; it misses a pair only once two particles have moved towards each other by
 // more than what was left. What counts is motion relative to what is near: water that flows fast
-// but smoothly keeps its lists for many steps.
+// but smoothly keeps its lists for many steps. Skins differ from place to place: the few particles
+// that move much relative to their neighbours have thick ones, so that all lists last as long.
 //
 // At a build particles are put into cells of edge e. Two particles in cells (i, j, k) apart were
 // then at least D = e |(max(|i|-1, 0), ...)| apart, so the lists hold as long as
-//   |d_a - d_b| <= max(skin, D - 2 h)   for all cells up to `range` apart in each direction,
-//   |d_a - d_b| <= range e - 2 h        for all others,
-// with d the displacements since the build. Displacements in a cell are bounded by a box.
+//   |d_a - d_b| <= max(min(s_a, s_b), D - 2 h)   for all cells up to `range` apart,
+//   |d_a - d_b| <= range e - 2 h                 for all others,
+// with d the displacements since the build and s the skin of the targets in a cell; a cell without
+// any has no lists of its own to grow old. Displacements in a cell are bounded by a box.
 #pragma once
 
 #include <array>
@@ -21,14 +23,16 @@
 
 namespace gannet {
 
-/// Smallest and largest displacement in a cell, by component [m].
+/// Smallest and largest displacement in a cell, by component; the fourth is 0 [m].
 struct MotionBox {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  using Bounds = Eigen::Vector4d;
+  Bounds low = Bounds::Constant(std::numeric_limits<double>::infinity());
+  Bounds high = Bounds::Constant(-std::numeric_limits<double>::infinity());
   [[nodiscard]] bool empty() const { return low.x() > high.x(); }
   void add(const Vec3& d) {
-    low = low.cwiseMin(d);
-    high = high.cwiseMax(d);
+    const Bounds bounds(d.x(), d.y(), d.z(), 0);
+    low = low.cwiseMin(bounds);
+    high = high.cwiseMax(bounds);
   }
   void add(const MotionBox& other) {
     low = low.cwiseMin(other.low);
@@ -43,7 +47,7 @@ inline double largest_difference(const MotionBox& a, const MotionBox& b) {
 
 /// The cells of one build.
 struct ListAge {
-  /// A cell `away` from another, and what their displacements may differ by [m].
+  /// A cell `away` from another, and what their displacements may differ by without a skin [m].
   struct Neighbour {
     std::array<Index, 3> away{};
     double allowed = 0;
@@ -52,20 +56,26 @@ struct ListAge {
   double allowed_elsewhere = 0;       ///< between all other cells [m]
   Array<Index> start;                 ///< where the members of a cell begin; one more than cells
   Array<Index> member;                ///< sources, by cell
-  std::vector<Neighbour> neighbours;  ///< the cell itself and one of each pair of directions
+  std::vector<double> skin;           ///< of the targets in a cell; infinite without any [m]
+  std::vector<Neighbour> neighbours;  ///< all cells up to `range` away, the cell itself too
   std::vector<MotionBox> motion;      ///< of each cell, when last asked
   [[nodiscard]] Index n_cells() const { return n[0] * n[1] * n[2]; }
 };
 
-/// Puts the sources of a new list into cells. With particles far out the cells become larger, so
-/// that there are at most 2 a particle (and 4096): lists are then made anew more often.
-/// x: positions at the build [m], finite; support: 2 h [m]; skin, dx: [m], > 0. unseen: sources
-/// that no list holds, and that are left out here too.
-void start_ageing(std::span<const Line> x, double support, double skin, double dx, ListAge& age,
-                  Range unseen = {});
+/// Puts the sources of a new list into cells, and gives all targets in a cell the largest skin
+/// among them. With particles far out the cells become larger, so that there are at most 2 a
+/// particle (and 4096): lists are then made anew more often. x: positions at the build [m], finite;
+/// skin: of each target, the first of the sources [m], > 0; support: 2 h; dx: [m], > 0. unseen:
+/// sources that no list holds, none of them a target, and that are left out here too.
+void start_ageing(std::span<const Line> x, std::span<double> skin, double support, double dx,
+                  ListAge& age, Range unseen = {});
 
 /// True where the boxes age.motion allow that a pair is missing. Parallel.
 bool outdated(const ListAge& age);
+
+/// How much the displacements in each cell, by the boxes age.motion, may differ from those in cells
+/// up to `range` away [m]; 0 in empty cells. Parallel.
+std::vector<double> relative_motion(const ListAge& age);
 
 /// Fills age.motion from displacement(source), a Vec3 [m]; it is called from several threads.
 template <class D>

@@ -13,14 +13,31 @@ namespace {
 
 double reach(const SphState& sph) { return sph.kernel.reach() + sph.skin.width; }
 
-/// Images and list for the positions x_build of the owned particles; everything
-/// that is a function of x_build, so that a restart finds the same.
+/// Bounds the skins, for those at the start come from elsewhere, and finds the largest.
+void bound_skins(SphState& sph, Index n) {
+  double* own = sph.list_skin.data();
+  sph.skin.width = parallel_reduce(
+      n, node_chunk, sph.skin.least,
+      [&](Index begin, Index end) {
+        double largest = 0;
+        for (Index k = begin; k < end; ++k) {
+          own[k] = std::clamp(own[k], sph.skin.least, sph.skin.most);
+          largest = std::max(largest, own[k]);
+        }
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+/// Images and list for the positions x_build of the owned particles and their skins; everything
+/// that is a function of these, so that a restart finds the same.
 void build_from_x_build(SphState& sph, Scene& scene) {
   const Index n = scene.particles.size();
   Halo& halo = sph.halo;
   sph.x_build.resize(static_cast<std::size_t>(n));
   // Who is not seen needs no images: nobody that they might be near to is computed.
   const Index n_seen = scene.seen().size();
+  bound_skins(sph, n_seen);
   if (halo.active()) choose_images(sph.x_build.data(), n_seen, reach(sph), halo);
   resize_ghosts(halo, scene);
   sph.x_build.resize(static_cast<std::size_t>(n + halo.n_ghosts()));
@@ -34,9 +51,10 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   copy_out(halo, scene);
   move_images(halo, scene);
   stick_images(halo, scene);
-  build_cluster_list(sph.x_build, n_seen, reach(sph), sph.list, isa(), {n_seen, n});
+  const std::span<double> skins(sph.list_skin.data(), static_cast<std::size_t>(n_seen));
+  start_ageing(sph.x_build, skins, sph.kernel.reach(), sph.dx, sph.age, {n_seen, n});
+  build_cluster_list(sph.x_build, n_seen, sph.kernel.reach(), sph.list, isa(), {n_seen, n}, skins);
   if (scene.resting.n > 0) sph.list.n_active = scene.awake().size() / ClusterList::lanes;
-  start_ageing(sph.x_build, sph.kernel.reach(), sph.skin.width, sph.dx, sph.age, {n_seen, n});
   ++sph.n_builds;
 }
 
@@ -85,7 +103,46 @@ struct Motion {
     if (shift != nullptr) d += 2 * dt_half * xyz(shift[k]);
     return d;
   }
+  /// In this step alone [m].
+  [[nodiscard]] Vec3 of_step(Index k) const {
+    Vec3 d = 2 * dt_half * xyz(v[k]);
+    if (X != nullptr) d += 2 * dt_half * xyz(X[k]);
+    if (shift != nullptr) d += 2 * dt_half * xyz(shift[k]);
+    return d;
+  }
 };
+
+/// Chooses the skin of each particle from how much its cell moves a step, relative to those near
+/// it: on the mean while the last lists were used, and now. What is fast now moves on before
+/// anybody asks again whether the new lists are old.
+void choose_skins(SphState& sph, const Scene& scene, const Motion& motion) {
+  ListAge& age = sph.age;
+  const Index n = scene.awake().size();
+  const std::vector<double> until_now = relative_motion(age);
+  measure_motion(age, [&](Index source) -> Vec3 {
+    if (source < scene.particles.size()) return motion.of_step(source);
+    const Index g = source - scene.particles.size();
+    return sph.halo.image_of(g).vector(motion.of_step(sph.halo.source[g]));
+  });
+  const std::vector<double> now = relative_motion(age);
+  double sum = 0;
+  double largest = 0;
+  std::fill(sph.list_skin.begin(), sph.list_skin.end(), 0.0);
+  for (Index c = 0; c < age.n_cells(); ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const double u = std::max(until_now[at] / std::max(1.0, sph.skin.steps), now[at]);
+    for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
+      if (age.member[k] >= n) continue;
+      sph.list_skin[age.member[k]] = u;
+      sum += u;
+      largest = std::max(largest, u);
+    }
+  }
+  const double steps = steps_to_last(sph.skin, sum / std::max(n, 1), largest, sph.dx);
+  for (Index k = 0; k < n; ++k) {
+    sph.list_skin[k] = skin_for(sph.skin, sph.list_skin[k], steps);
+  }
+}
 
 /// Whether a particle that was too far from a wall to have an image has come within 2 h of it, of
 /// those in one cell. Water that falls on a floor as a whole does not move relative to itself, so
@@ -166,7 +223,7 @@ void restore_lists(SphState& sph, Scene& scene) { build_from_x_build(sph, scene)
 
 void renew_lists(SphState& sph, Scene& scene, double dt_half) {
   if (lists_are_stale(sph, scene, dt_half)) {
-    adapt(sph.skin, sph.dx);
+    choose_skins(sph, scene, Motion(sph, scene, dt_half));
     rebuild_lists(sph, scene);
   }
   ++sph.skin.steps;

@@ -52,7 +52,7 @@ Schema schema() {
        .limits = between(0.01, 1.5)},
       {.name = "skin",
        .text = "how much further than 2 h neighbour lists reach, over spacing; where absent it "
-               "follows the motion, within 0.1 and 0.5",
+               "follows the motion at each place, within 0.03 and 0.5",
        .limits = between(0.02, 2)},
       {.name = "sound_speed_check",
        .kind = Kind::flag,
@@ -201,7 +201,7 @@ void track_fields(SphState& sph, Scene& scene) {
   track(plain_field("drho_dt", "kg/(m^3 s)", "", over, sph.drho_dt, 1, GhostRule::none));
   track(plain_field("h", "m", "SmoothingLength", over, sph.smoothing_length, 1, GhostRule::copy));
   track(line_field("x_build", "m", "", over, sph.x_build, 0, 3, GhostRule::none));
-  track_values(scene, "sph", "list.skin", "m", 1, [&sph] { return &sph.skin.width; });
+  track(plain_field("list_skin", "m", "", over, sph.list_skin, 1, GhostRule::none));
   track_values(scene, "sph", "list.steps", "", 1, [&sph] { return &sph.skin.steps; });
 }
 
@@ -255,7 +255,7 @@ void read_materials(const Keys& root, const std::vector<Keys>& parts, SphState& 
 
 /// What the case says, or bounds and a start for what is chosen.
 ListSkin skin_of(const Keys& sph, double dx) {
-  if (!sph.has("skin")) return {.width = 0.26 * dx, .least = 0.1 * dx, .most = 0.5 * dx};
+  if (!sph.has("skin")) return {.width = 0.26 * dx, .least = 0.03 * dx, .most = 0.5 * dx};
   const double width = sph.number("skin") * dx;
   return {.width = width, .least = width, .most = width};
 }
@@ -287,6 +287,7 @@ void make_state(const Keys& root, Scene& scene) {
   sph.drho_dt.assign(n, 0);
   sph.smoothing_length.assign(n, sph.h);
   sph.x_build.assign(n, {});
+  sph.list_skin.assign(n, sph.skin.width);
   for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
     scene.nodes.x[i].w = sph.m;
   }

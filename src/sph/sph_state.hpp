@@ -61,6 +61,7 @@ struct SphState {
   Array<double> drho_dt;           ///< [kg/(m^3 s)]
   Array<double> smoothing_length;  ///< h of each particle [m]
   Array<Line> x_build;             ///< positions when the lists were built [m]
+  Array<double> list_skin;         ///< how much further than 2 h the list of each reaches [m]
   Array<Line> X;                   ///< XSPH velocity [m/s]; empty without XSPH
   /// Parts of the force of the last force pass [N], each empty where its term is absent.
   Array<Line> f_viscous, f_laminar, f_tensile, f_correction;

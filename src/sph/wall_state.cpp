@@ -184,8 +184,7 @@ void set_wall_pressure(Walls& walls, SphState& sph, Scene& scene, const Step& st
   set_dry_values(walls, sph, scene);
   ParticleView view = view_of(sph, scene);
   view.p = sph.p.data();
-  wall_sums(walls.near, walls.clusters, view, scene.dimension, sph.list.radius - sph.skin.width,
-            walls.sums);
+  wall_sums(walls.near, walls.clusters, view, scene.dimension, sph.kernel.reach(), walls.sums);
   note_ease(walls, scene);
   for_wet_particles(walls, scene, [&](Index k, const Wall& wall, const WallSums& sums) {
     Vec3 g_minus_a = scene.gravity;

@@ -1,7 +1,10 @@
 #include "sph/list_age.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "sph/list_skin.hpp"
 
 using namespace gannet;
 
@@ -22,13 +25,20 @@ Array<Line> bar(int length) {
   return x;
 }
 
-/// Age of lists of x after displacements d(x).
+/// Age of lists of x after displacements d(x); skins are evened out.
 template <class D>
-bool outdated_after(const Array<Line>& x, const D& d) {
+bool outdated_after(const Array<Line>& x, Array<double>& skins, const D& d) {
   ListAge age;
-  start_ageing(x, support_radius, skin, dx, age);
+  start_ageing(x, skins, support_radius, dx, age);
   measure_motion(age, [&](Index k) -> Vec3 { return d(xyz(x[k])); });
   return outdated(age);
+}
+
+/// The same with one skin for all.
+template <class D>
+bool outdated_after(const Array<Line>& x, const D& d) {
+  Array<double> skins(x.size(), skin);
+  return outdated_after(x, skins, d);
 }
 
 }  // namespace
@@ -44,6 +54,53 @@ TEST_CASE("list age: neighbours may differ by the skin, no more", "[sph]") {
   };
   CHECK_FALSE(half_moves(0.99 * skin));
   CHECK(half_moves(1.01 * skin));
+}
+
+TEST_CASE(
+    "list age: the thinner skin of two cells counts, and that of cells without targets does not",
+    "[sph]") {
+  const Array<Line> x = bar(100);
+  const auto last_moves = [&](double by, std::size_t n_targets, double skin_of_others) {
+    Array<double> skins(n_targets, skin_of_others);
+    for (std::size_t k = 0; k < n_targets; ++k) {
+      if (x[k].x > 7) skins[k] = 4 * skin;
+    }
+    return outdated_after(x, skins,
+                          [by](const Vec3& p) { return Vec3(0, p.x() > 9.7 ? by : 0, 0); });
+  };
+  CHECK_FALSE(last_moves(3.9 * skin, x.size(), skin));
+  CHECK(last_moves(4.1 * skin, x.size(), skin));
+  CHECK(last_moves(3.9 * skin, x.size() - 9 * 2, 4 * skin) == false);
+  CHECK_FALSE(last_moves(6 * skin, x.size() - 9 * 20, skin));  // ghosts, far from all targets
+}
+
+TEST_CASE("list age: targets of a cell get the largest skin among them", "[sph]") {
+  const Array<Line> x = bar(100);
+  Array<double> skins(x.size(), skin);
+  skins[500] = 2 * skin;
+  ListAge age;
+  start_ageing(x, skins, support_radius, dx, age);
+  Array<double> again = skins;
+  start_ageing(x, again, support_radius, dx, age);
+  CHECK(again == skins);
+  for (Index c = 0; c < age.n_cells(); ++c) {
+    for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
+      CHECK(skins[age.member[k]] == age.skin[c]);
+    }
+  }
+  CHECK(std::count(skins.begin(), skins.end(), 2 * skin) > 9);
+  CHECK(std::count(skins.begin(), skins.end(), 2 * skin) < 100);
+}
+
+TEST_CASE("list age: motion is relative to the cells around", "[sph]") {
+  const Array<Line> x = bar(100);
+  Array<double> skins(x.size(), skin);
+  ListAge age;
+  start_ageing(x, skins, support_radius, dx, age);
+  measure_motion(age, [&](Index k) -> Vec3 { return {5, x[k].x > 9.85 ? 0.02 : 0.0, 0}; });
+  const std::vector<double> motion = relative_motion(age);
+  CHECK(motion.front() == 0);
+  CHECK(motion.back() == Approx(0.02).epsilon(1e-12));
 }
 
 TEST_CASE("list age: a gentle shear lasts longer than its ends are apart", "[sph]") {
@@ -68,6 +125,8 @@ TEST_CASE("list age: no motion may hide a pair that came within the support_radi
   // Displacements of many lengths: whenever the age says that all is well, a search over all pairs
   // finds none that is near now and was further than the list's reach before.
   const Array<Line> x = bar(60);
+  Array<double> skins;
+  for (const Line& p : x) skins.push_back(p.x < 2 ? skin : 0.5 * skin * (1 + p.x));
   int n_good = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const double size = 0.002 * (1 + trial);
@@ -75,13 +134,13 @@ TEST_CASE("list age: no motion may hide a pair that came within the support_radi
       return Vec3(size * std::sin(3 * p.x() + trial), size * std::cos(2 * p.x()),
                   0.3 * size * std::sin(9 * p.y()));
     };
-    if (outdated_after(x, d)) continue;
+    if (outdated_after(x, skins, d)) continue;
     ++n_good;
-    for (const Line& a : x) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
       for (const Line& b : x) {
-        const Vec3 before = xyz(a) - xyz(b);
-        const Vec3 now = before + d(xyz(a)) - d(xyz(b));
-        if (now.norm() < support_radius && before.norm() > support_radius + skin)
+        const Vec3 before = xyz(x[i]) - xyz(b);
+        const Vec3 now = before + d(xyz(x[i])) - d(xyz(b));
+        if (now.norm() < support_radius && before.norm() > support_radius + skins[i])
           FAIL("a pair is missing");
       }
     }
@@ -90,18 +149,17 @@ TEST_CASE("list age: no motion may hide a pair that came within the support_radi
   CHECK(n_good < 60);
 }
 
-TEST_CASE("list skin: follows the motion of a step, within its bounds", "[sph]") {
-  // s = sqrt(1.5 u dx), u = width/steps.
-  ListSkin skin{.width = 0.2, .least = 0.1, .most = 0.5, .steps = 5};
-  adapt(skin, 1);
-  CHECK(skin.width == Approx(std::sqrt(1.5 * 0.04)));
-  skin = {.width = 0.2, .least = 0.1, .most = 0.5, .steps = 0};  // old before they were used
-  adapt(skin, 1);
-  CHECK(skin.width == 0.5);
-  skin = {.width = 0.2, .least = 0.1, .most = 0.5, .steps = 1000};
-  adapt(skin, 1);
-  CHECK(skin.width == 0.1);
-  skin = {.width = 0.3, .least = 0.3, .most = 0.3, .steps = 2};  // said by the case
-  adapt(skin, 1);
-  CHECK(skin.width == 0.3);
+TEST_CASE("list skin: lists last as long as costs least, within the bounds of skins", "[sph]") {
+  // n = sqrt(1.5 dx/(1.3 u)); the largest skin, 1.3 n times the largest motion, is at most 0.5.
+  const ListSkin skin{.least = 0.1, .most = 0.5};
+  CHECK(steps_to_last(skin, 0.04, 0.04, 1) == Approx(std::sqrt(1.5 / (1.3 * 0.04))));
+  CHECK(steps_to_last(skin, 0.04, 0.1, 1) == Approx(0.5 / 0.13));
+  CHECK(steps_to_last(skin, 0.04, 10, 1) == 1);
+  CHECK(steps_to_last(skin, 0, 0, 1) == 1000);
+  CHECK(skin_for(skin, 0.04, 5) == Approx(0.26));
+  CHECK(skin_for(skin, 0.001, 5) == 0.1);
+  CHECK(skin_for(skin, 0.2, 5) == 0.5);
+  const ListSkin said{.least = 0.3, .most = 0.3};
+  CHECK(skin_for(said, 0.2, 5) == 0.3);
+  CHECK(skin_for(said, 0, 5) == 0.3);
 }

@@ -1,0 +1,99 @@
+#include "sph/neighbour_lists.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "pool.hpp"
+
+using namespace gannet;
+using gannet::test::Pool;
+
+namespace {
+
+/// A plane sheet of water, repeated along y, whose particles each move for themselves, some of them
+/// far faster than those around, and a jet that meets it.
+Pool storm(const std::string& more) {
+  return Pool(R"(
+materials: {water: {density: 1000, c0: 100 m/s}}
+parts:
+  sheet: {sph: {material: water, spacing: 0.05)" +
+                  more + R"(}, fill: {box: {from: [0, 0, 0], to: [1, 1, 0]}}}
+  jet:
+    sph: {material: water, spacing: 0.05)" +
+                  more + R"(}
+    fill: {box: {from: [1.3, 0.4, 0], to: [1.6, 0.6, 0]}}
+    initial_velocity: [-8, 0, 0]
+boundaries: {sides: {periodic: {y: [0, 1]}}}
+)",
+              2, Vec3::Zero(), [](Scene& scene) {
+                for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
+                  const auto k = static_cast<double>(scene.nodes.id[i]);
+                  const double speed = std::sin(11 * k) > 0.95 ? 4.0 : 0.3;
+                  set_xyz(scene.nodes.v[i], xyz(scene.nodes.v[i]) +
+                                                speed * Vec3(std::sin(7 * k), std::cos(5 * k), 0));
+                }
+              });
+}
+
+/// Pairs of an owned particle and a particle or an image of one, along y by the period 1, nearer
+/// than the kernel reaches.
+int pairs_near(Pool& pool, Index i) {
+  const double reach = (1 - 1e-9) * pool.sph().kernel.reach();
+  int n = 0;
+  for (Index j = 0; j < pool.scene.particles.size(); ++j) {
+    for (const double shift : {-1.0, 0.0, 1.0}) {
+      n += (pool.x(i) - pool.x(j) - Vec3(0, shift, 0)).norm() < reach;
+    }
+  }
+  return n;
+}
+
+/// Of those, the ones that the list of the particle holds.
+int pairs_listed(Pool& pool, Index i) {
+  const ClusterList& list = pool.sph().list;
+  const double reach = (1 - 1e-9) * pool.sph().kernel.reach();
+  const auto c = static_cast<std::size_t>(i / ClusterList::lanes);
+  int n = 0;
+  for (std::int64_t e = list.offset[c]; e < list.offset[c + 1]; ++e) {
+    const Index j = list.source[static_cast<std::size_t>(e)];
+    n += j < list.n_sources && (pool.x(i) - pool.x(j)).norm() < reach;
+  }
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("neighbour lists: no pair is missing after any step of a storm", "[sph]") {
+  for (const char* more : {"", ", skin: 0.2"}) {
+    Pool pool = storm(more);
+    int n_missing = 0;
+    int n_steps = 0;
+    while (pool.at().t < 0.08) {
+      pool.run(1);
+      ++n_steps;
+      for (Index i = 0; i < pool.scene.particles.size(); ++i) {
+        n_missing += pairs_near(pool, i) != pairs_listed(pool, i);
+      }
+    }
+    CHECK(n_missing == 0);
+    CHECK(n_steps > 200);
+    CHECK(pool.sph().n_builds > 10);
+    CHECK(pool.sph().n_builds <
+          0.8 * n_steps);  // lists that were made anew at every step say nothing
+  }
+}
+
+TEST_CASE("neighbour lists: skins are thick only where particles move against each other",
+          "[sph]") {
+  Pool pool = storm("");
+  while (pool.at().t < 0.12) pool.run(1);
+  const SphState& sph = pool.sph();
+  double sum = 0;
+  for (Index k = 0; k < pool.scene.particles.size(); ++k) {
+    const double skin = sph.list_skin[static_cast<std::size_t>(k)];
+    CHECK(skin >= sph.skin.least);
+    CHECK(skin <= sph.skin.width);
+    sum += skin;
+  }
+  CHECK(sum < 0.8 * sph.skin.width * pool.scene.particles.size());
+}
