@@ -145,7 +145,10 @@ void start_ageing(std::span<const Line> x, std::span<double> skin, double suppor
   const Grid grid = grid_of(x, unseen, (support + far_allowance * dx) / range);
   sort_by_cell(x, unseen, grid, age);
   even_out(skin, age);
-  age.allowed_elsewhere = range * grid.edge - support;
+  // Two particles too far from a periodic end to have images there are 2 (2 h + skin) apart across
+  // it, which no cell tells: however large cells are, they may not move towards each other by more
+  // than 2 h.
+  age.allowed_elsewhere = std::min(range * grid.edge - support, support);
   age.neighbours.clear();
   const auto gap = [&](Index steps) { return grid.edge * std::max(std::abs(steps) - 1, 0); };
   for (Index k = -range; k <= range; ++k) {

@@ -7,7 +7,7 @@
 // At a build particles are put into cells of edge e. Two particles in cells (i, j, k) apart were
 // then at least D = e |(max(|i|-1, 0), ...)| apart, so the lists hold as long as
 //   |d_a - d_b| <= max(min(s_a, s_b), D - 2 h)   for all cells up to `range` apart,
-//   |d_a - d_b| <= range e - 2 h                 for all others,
+//   |d_a - d_b| <= min(range e - 2 h, 2 h)       for all others,
 // with d the displacements since the build and s the skin of the targets in a cell; a cell without
 // any has no lists of its own to grow old. Displacements in a cell are bounded by a box.
 #pragma once
