@@ -90,9 +90,10 @@ function(gannet_test_program NAME)
   target_link_libraries(test_${NAME} PRIVATE gannet_test_main ${T_USES})
 endfunction()
 
-# gannet_test_entry(NAME PROGRAM LABEL [arguments ...]) makes the CTest entry NAME of a test program.
+# gannet_test_entry(NAME PROGRAM LABEL [arguments ...]) makes the CTest entry NAME of a test program,
+# which fails where the arguments choose no test.
 function(gannet_test_entry NAME PROGRAM LABEL)
-  add_test(NAME ${NAME} COMMAND ${PROGRAM} -d yes ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  add_test(NAME ${NAME} COMMAND ${PROGRAM} -d yes -w NoTests ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(${NAME} PROPERTIES LABELS "${LABEL}")
 endfunction()
 
