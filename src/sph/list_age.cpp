@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace gannet {
@@ -13,6 +14,8 @@ constexpr Index range = 2;
 /// How much further than 2 h these reach, in spacings: what water may move, relative to other
 /// water further off, before lists are made anew.
 constexpr double far_allowance = 2;
+/// Rows of cells a chunk.
+constexpr Index row_chunk = 8;
 
 struct Grid {
   Vec3 low = Vec3::Zero();
@@ -60,63 +63,132 @@ Grid grid_of(std::span<const Line> x, Range unseen, double edge) {
   return grid;
 }
 
+/// Numbers the cells that have members, of those counted in age.cell_at, and their rows.
+void find_cells(ListAge& age) {
+  age.place.clear();
+  age.start.assign(1, 0);
+  age.rows.clear();
+  age.row_at.assign(static_cast<std::size_t>(age.n[1] * age.n[2]), -1);
+  for (Index place = 0; place < static_cast<Index>(age.cell_at.size()); ++place) {
+    const Index count = std::exchange(age.cell_at[place], -1);
+    if (count == 0) continue;
+    const Index cell = age.n_cells();
+    age.cell_at[place] = cell;
+    age.place.push_back(place);
+    age.start.push_back(age.start.back() + count);
+    Index& row = age.row_at[place / age.n[0]];
+    if (row < 0) {
+      row = static_cast<Index>(age.rows.size());
+      age.rows.push_back({.begin = cell});
+    }
+    age.rows[row].end = cell + 1;
+  }
+}
+
 /// Counting sort of the sources by cell.
 void sort_by_cell(std::span<const Line> x, Range unseen, const Grid& grid, ListAge& age) {
   age.n = grid.n;
-  age.start.assign(static_cast<std::size_t>(age.n_cells() + 2), 0);
-  age.member.resize(x.size() - static_cast<std::size_t>(unseen.size()));
-  for_seen(x, unseen, [&](Index k) { ++age.start[grid.cell_of(x[k]) + 2]; });
-  for (std::size_t c = 2; c < age.start.size(); ++c) age.start[c] += age.start[c - 1];
-  for_seen(x, unseen, [&](Index k) { age.member[age.start[grid.cell_of(x[k]) + 1]++] = k; });
-  age.start.pop_back();
-  age.motion.resize(static_cast<std::size_t>(age.n_cells()));
+  age.cell_at.assign(static_cast<std::size_t>(age.n[0] * age.n[1] * age.n[2]), 0);
+  for_seen(x, unseen, [&](Index k) { ++age.cell_at[grid.cell_of(x[k])]; });
+  find_cells(age);
+  Array<Index> next(age.start.begin(), age.start.end() - 1);
+  age.member.resize(static_cast<std::size_t>(age.start.back()));
+  for_seen(x, unseen, [&](Index k) { age.member[next[age.cell_at[grid.cell_of(x[k])]]++] = k; });
+  age.motion.resize(age.place.size());
 }
 
-/// The neighbour of cell c that is `away`, or -1 outside of the grid.
+/// The neighbour of cell c that is `away`, or -1.
 Index neighbour_of(const ListAge& age, Index c, const std::array<Index, 3>& away) {
-  const Index i = c % age.n[0] + away[0];
-  const Index j = c / age.n[0] % age.n[1] + away[1];
-  const Index k = c / (age.n[0] * age.n[1]) + away[2];
+  const Index place = age.place[c];
+  const Index i = place % age.n[0] + away[0];
+  const Index j = place / age.n[0] % age.n[1] + away[1];
+  const Index k = place / (age.n[0] * age.n[1]) + away[2];
   const bool inside = i >= 0 && i < age.n[0] && j >= 0 && j < age.n[1] && k >= 0 && k < age.n[2];
-  return inside ? (k * age.n[1] + j) * age.n[0] + i : -1;
+  return inside ? age.cell_at[(k * age.n[1] + j) * age.n[0] + i] : -1;
 }
 
 /// Whether cell c and one of its neighbours differ by more than they may.
 bool cell_is_outdated(const ListAge& age, Index c) {
-  const MotionBox& here = age.motion[c];
   for (const ListAge::Neighbour& neighbour : age.neighbours) {
     const Index other = neighbour_of(age, c, neighbour.away);
-    if (other < 0 || age.motion[other].empty()) continue;
+    if (other < 0) continue;
     const double allowed = std::max(std::min(age.skin[c], age.skin[other]), neighbour.allowed);
-    if (largest_difference(here, age.motion[other]) > allowed) return true;
+    if (largest_difference(age.motion[c], age.motion[other]) > allowed) return true;
   }
   return false;
 }
 
-/// Each box joined with those up to `range` away along one direction of n cells, `stride` apart.
-void join_along(const std::vector<MotionBox>& from, Index n, Index stride,
-                std::vector<MotionBox>& to) {
-  parallel_for(static_cast<Index>(from.size()) / n, 64, [&](Index begin, Index end) {
-    for (Index line = begin; line < end; ++line) {
-      const Index first = line / stride * stride * n + line % stride;
-      for (Index i = 0; i < n; ++i) {
-        MotionBox box;
-        const Index last = std::min(i + range, n - 1);
-        for (Index k = std::max(i - range, 0); k <= last; ++k) box.add(from[first + k * stride]);
-        to[first + i * stride] = box;
-      }
+/// Calls f(other) for a row and those up to `range` away from it.
+template <class F>
+void for_rows_around(const ListAge& age, const ListAge::Row& row, F&& f) {
+  const Index at = age.place[row.begin] / age.n[0];
+  const Index j = at % age.n[1];
+  const Index k = at / age.n[1];
+  for (Index b = std::max(k - range, 0); b <= std::min(k + range, age.n[2] - 1); ++b) {
+    for (Index a = std::max(j - range, 0); a <= std::min(j + range, age.n[1] - 1); ++a) {
+      const Index other = age.row_at[b * age.n[1] + a];
+      if (other >= 0) f(age.rows[other]);
     }
-  });
+  }
 }
 
-/// The motion of each cell and its neighbours together.
-std::vector<MotionBox> motion_around(const ListAge& age) {
-  std::vector<MotionBox> around(age.motion.size());
-  std::vector<MotionBox> work(age.motion.size());
-  join_along(age.motion, age.n[0], 1, around);
-  join_along(around, age.n[1], age.n[0], work);
-  join_along(work, age.n[2], age.n[0] * age.n[1], around);
-  return around;
+/// Calls f(cell, motion of it and its neighbours together) for the cells of a row, until that is
+/// true; whether it was. work: of no meaning.
+template <class F>
+bool any_in_row(const ListAge& age, const ListAge::Row& row, std::vector<MotionBox>& work, F&& f) {
+  const Index first = age.place[row.begin] % age.n[0] - range;
+  const Index last = age.place[row.end - 1] % age.n[0] + range;
+  work.assign(static_cast<std::size_t>(last - first + 1), {});
+  for_rows_around(age, row, [&](const ListAge::Row& other) {
+    for (Index c = other.begin; c < other.end; ++c) {
+      const Index i = age.place[c] % age.n[0];
+      if (i >= first && i <= last) work[i - first].add(age.motion[c]);
+    }
+  });
+  for (Index c = row.begin; c < row.end; ++c) {
+    const Index i = age.place[c] % age.n[0] - first;
+    MotionBox around;
+    for (Index k = i - range; k <= i + range; ++k) around.add(work[k]);
+    if (f(c, around)) return true;
+  }
+  return false;
+}
+
+/// Whether one of these rows may miss a pair. Most need no look at their cells: as a whole they
+/// do not differ from those around. Nor do most cells at each of their neighbours.
+bool rows_are_outdated(const ListAge& age, Index begin, Index end) {
+  std::vector<MotionBox> work;
+  for (Index r = begin; r < end; ++r) {
+    const ListAge::Row& row = age.rows[r];
+    MotionBox around;
+    for_rows_around(age, row, [&](const ListAge::Row& other) { around.add(other.motion); });
+    if (largest_difference(row.motion, around) <= row.skin) continue;
+    const bool found = any_in_row(age, row, work, [&](Index c, const MotionBox& box) {
+      return largest_difference(age.motion[c], box) > age.skin[c] && cell_is_outdated(age, c);
+    });
+    if (found) return true;
+  }
+  return false;
+}
+
+/// Finds the motion of each row; that of all.
+MotionBox join_rows(ListAge& age) {
+  return parallel_reduce(
+      static_cast<Index>(age.rows.size()), row_chunk, MotionBox{},
+      [&](Index begin, Index end) {
+        MotionBox all;
+        for (Index r = begin; r < end; ++r) {
+          MotionBox box;
+          for (Index c = age.rows[r].begin; c < age.rows[r].end; ++c) box.add(age.motion[c]);
+          age.rows[r].motion = box;
+          all.add(box);
+        }
+        return all;
+      },
+      [](MotionBox a, const MotionBox& b) {
+        a.add(b);
+        return a;
+      });
 }
 
 /// Gives the targets of each cell the largest skin among them.
@@ -136,6 +208,11 @@ void even_out(std::span<double> skin, ListAge& age) {
       age.skin[c] = largest > 0 ? largest : std::numeric_limits<double>::infinity();
     }
   });
+  age.least_skin = std::numeric_limits<double>::infinity();
+  for (ListAge::Row& row : age.rows) {
+    row.skin = *std::min_element(age.skin.begin() + row.begin, age.skin.begin() + row.end);
+    age.least_skin = std::min(age.least_skin, row.skin);
+  }
 }
 
 }  // namespace
@@ -161,32 +238,29 @@ void start_ageing(std::span<const Line> x, std::span<double> skin, double suppor
   }
 }
 
-bool outdated(const ListAge& age) {
-  const std::vector<MotionBox> around = motion_around(age);
-  MotionBox all;
-  for (const MotionBox& box : age.motion) all.add(box);
-  if (largest_difference(all, all) > age.allowed_elsewhere) return true;
-  const int found = parallel_reduce(
-      age.n_cells(), 64, 0,
-      [&](Index begin, Index end) {
-        for (Index c = begin; c < end; ++c) {
-          if (age.motion[c].empty()) continue;
-          // Most cells need no look at their neighbours: they do not differ from all of them.
-          if (largest_difference(age.motion[c], around[c]) <= age.skin[c]) continue;
-          if (cell_is_outdated(age, c)) return 1;
-        }
-        return 0;
-      },
-      [](int a, int b) { return a | b; });
-  return found != 0;
+bool outdated(ListAge& age) {
+  const MotionBox all = join_rows(age);
+  if (all.empty()) return false;
+  const double most = largest_difference(all, all);
+  if (most > age.allowed_elsewhere) return true;
+  if (most <= age.least_skin) return false;
+  return parallel_reduce(
+             static_cast<Index>(age.rows.size()), row_chunk, 0,
+             [&](Index begin, Index end) { return rows_are_outdated(age, begin, end) ? 1 : 0; },
+             [](int a, int b) { return a | b; }) != 0;
 }
 
 std::vector<double> relative_motion(const ListAge& age) {
-  const std::vector<MotionBox> around = motion_around(age);
-  std::vector<double> motion(around.size(), 0);
-  for (std::size_t c = 0; c < motion.size(); ++c) {
-    if (!age.motion[c].empty()) motion[c] = largest_difference(age.motion[c], around[c]);
-  }
+  std::vector<double> motion(age.motion.size());
+  parallel_for(static_cast<Index>(age.rows.size()), row_chunk, [&](Index begin, Index end) {
+    std::vector<MotionBox> work;
+    for (Index r = begin; r < end; ++r) {
+      any_in_row(age, age.rows[r], work, [&](Index c, const MotionBox& around) {
+        motion[c] = largest_difference(age.motion[c], around);
+        return false;
+      });
+    }
+  });
   return motion;
 }
 

@@ -45,21 +45,33 @@ inline double largest_difference(const MotionBox& a, const MotionBox& b) {
   return (a.high - b.low).cwiseMax(b.high - a.low).norm();
 }
 
-/// The cells of one build.
+/// The cells of one build: those with a source in them, by z, y, x.
 struct ListAge {
   /// A cell `away` from another, and what their displacements may differ by without a skin [m].
   struct Neighbour {
     std::array<Index, 3> away{};
     double allowed = 0;
   };
-  std::array<Index, 3> n{};           ///< cells along x, y, z; x runs fastest
+  /// The cells along x with the same y and z.
+  struct Row {
+    Index begin = 0;
+    Index end = 0;
+    double skin = std::numeric_limits<double>::infinity();  ///< the smallest in it [m]
+    MotionBox motion;
+  };
+  std::array<Index, 3> n{};           ///< places of cells along x, y, z; x runs fastest
   double allowed_elsewhere = 0;       ///< between all other cells [m]
+  double least_skin = 0;              ///< of all rows [m]
+  Array<Index> place;                 ///< of each cell
+  Array<Index> cell_at;               ///< by place; -1 where there is none
+  Array<Index> row_at;                ///< by place/n[0]; -1 where there is none
   Array<Index> start;                 ///< where the members of a cell begin; one more than cells
   Array<Index> member;                ///< sources, by cell
   std::vector<double> skin;           ///< of the targets in a cell; infinite without any [m]
   std::vector<Neighbour> neighbours;  ///< all cells up to `range` away, the cell itself too
   std::vector<MotionBox> motion;      ///< of each cell, when last asked
-  [[nodiscard]] Index n_cells() const { return n[0] * n[1] * n[2]; }
+  std::vector<Row> rows;
+  [[nodiscard]] Index n_cells() const { return static_cast<Index>(place.size()); }
 };
 
 /// Puts the sources of a new list into cells, and gives all targets in a cell the largest skin
@@ -70,11 +82,11 @@ struct ListAge {
 void start_ageing(std::span<const Line> x, std::span<double> skin, double support, double dx,
                   ListAge& age, Range unseen = {});
 
-/// True where the boxes age.motion allow that a pair is missing. Parallel.
-bool outdated(const ListAge& age);
+/// True where the boxes age.motion allow that a pair is missing. Finds age.rows[].motion. Parallel.
+bool outdated(ListAge& age);
 
 /// How much the displacements in each cell, by the boxes age.motion, may differ from those in cells
-/// up to `range` away [m]; 0 in empty cells. Parallel.
+/// up to `range` away [m]. Parallel.
 std::vector<double> relative_motion(const ListAge& age);
 
 /// Fills age.motion from displacement(source), a Vec3 [m]; it is called from several threads.

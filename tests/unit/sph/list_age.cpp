@@ -56,9 +56,27 @@ TEST_CASE("list age: neighbours may differ by the skin, no more", "[sph]") {
   CHECK(half_moves(1.01 * skin));
 }
 
-TEST_CASE(
-    "list age: the thinner skin of two cells counts, and that of cells without targets does not",
-    "[sph]") {
+TEST_CASE("list age: the thinner skin of two cells counts", "[sph]") {
+  // Cells end at 7.13, where the skin changes, and so does the motion.
+  const Array<Line> x = bar(100);
+  const auto one_side_moves = [&](double by, bool right_is_thick, bool right_moves) {
+    Array<double> skins;
+    for (const Line& p : x) skins.push_back((p.x > 7.13) == right_is_thick ? 4 * skin : skin);
+    return outdated_after(x, skins, [=](const Vec3& p) {
+      return Vec3(0, (p.x() > 7.13) == right_moves ? by : 0, 0);
+    });
+  };
+  for (const bool thick : {false, true}) {
+    for (const bool moves : {false, true}) {
+      CHECK_FALSE(one_side_moves(0.99 * skin, thick, moves));
+      CHECK(one_side_moves(1.01 * skin, thick, moves));
+      CHECK(one_side_moves(3.99 * skin, thick, moves));
+    }
+  }
+}
+
+TEST_CASE("list age: skins count where they are, and those of cells without targets do not",
+          "[sph]") {
   const Array<Line> x = bar(100);
   const auto last_moves = [&](double by, std::size_t n_targets, double skin_of_others) {
     Array<double> skins(n_targets, skin_of_others);
@@ -68,10 +86,40 @@ TEST_CASE(
     return outdated_after(x, skins,
                           [by](const Vec3& p) { return Vec3(0, p.x() > 9.7 ? by : 0, 0); });
   };
-  CHECK_FALSE(last_moves(3.9 * skin, x.size(), skin));
-  CHECK(last_moves(4.1 * skin, x.size(), skin));
-  CHECK(last_moves(3.9 * skin, x.size() - 9 * 2, 4 * skin) == false);
+  CHECK_FALSE(last_moves(3.99 * skin, x.size(), skin));
+  CHECK(last_moves(4.01 * skin, x.size(), skin));
+  CHECK_FALSE(last_moves(3.9 * skin, x.size() - 9 * 2, 4 * skin));
   CHECK_FALSE(last_moves(6 * skin, x.size() - 9 * 20, skin));  // ghosts, far from all targets
+}
+
+TEST_CASE("list age: rows of cells along y and z count as those along x", "[sph]") {
+  const auto turned_half_moves = [](int turn, double by) {
+    Array<Line> x = bar(100);
+    for (Line& p : x) {
+      p = turn == 1 ? Line{p.y, p.x, p.z, 0} : Line{p.y, p.z, p.x, 0};
+    }
+    return outdated_after(x, [=](const Vec3& p) { return Vec3(p[turn] > 5.02 ? by : 0, 0, 0); });
+  };
+  for (const int turn : {1, 2}) {
+    CHECK_FALSE(turned_half_moves(turn, 0.99 * skin));
+    CHECK(turned_half_moves(turn, 1.01 * skin));
+  }
+}
+
+TEST_CASE("list age: there are no more cells than sources, however far apart they are", "[sph]") {
+  Array<Line> x = bar(10);
+  for (const Line& p : bar(10)) x.push_back({p.x + 20, p.y + 20, p.z + 20, 0});
+  Array<double> skins(x.size(), skin);
+  ListAge age;
+  start_ageing(x, skins, support_radius, dx, age);
+  CHECK(age.n_cells() <= static_cast<Index>(x.size()));
+  std::vector<int> times(x.size(), 0);
+  for (Index c = 0; c < age.n_cells(); ++c) {
+    CHECK(age.start[c] < age.start[c + 1]);
+    CHECK(age.cell_at[age.place[c]] == c);
+    for (Index k = age.start[c]; k < age.start[c + 1]; ++k) ++times[age.member[k]];
+  }
+  CHECK(std::count(times.begin(), times.end(), 1) == static_cast<int>(x.size()));
 }
 
 TEST_CASE("list age: targets of a cell get the largest skin among them", "[sph]") {
