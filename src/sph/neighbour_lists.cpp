@@ -13,20 +13,23 @@ namespace {
 
 double reach(const SphState& sph) { return sph.kernel.reach() + sph.skin.width; }
 
-/// Bounds the skins, for those at the start come from elsewhere, and finds the largest.
-void bound_skins(SphState& sph, Index n) {
-  double* own = sph.list_skin.data();
-  sph.skin.width = parallel_reduce(
-      n, node_chunk, sph.skin.least,
-      [&](Index begin, Index end) {
-        double largest = 0;
-        for (Index k = begin; k < end; ++k) {
-          own[k] = std::clamp(own[k], sph.skin.least, sph.skin.most);
-          largest = std::max(largest, own[k]);
-        }
-        return largest;
-      },
+/// The largest skin of the first n particles [m].
+double largest_skin(const SphState& sph, Index n) {
+  const double* own = sph.list_skin.data();
+  return parallel_reduce(
+      n, node_chunk, 0.0,
+      [&](Index begin, Index end) { return *std::max_element(own + begin, own + end); },
       [](double a, double b) { return std::max(a, b); });
+}
+
+/// Brings the skins, which at the start come from elsewhere, within the bounds of this case.
+void bound_skins(SphState& sph) {
+  double* own = sph.list_skin.data();
+  parallel_for(static_cast<Index>(sph.list_skin.size()), node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      own[k] = std::clamp(own[k], sph.skin.least, sph.skin.most);
+    }
+  });
 }
 
 /// Images and list for the positions x_build of the owned particles and their skins; everything
@@ -37,7 +40,7 @@ void build_from_x_build(SphState& sph, Scene& scene) {
   sph.x_build.resize(static_cast<std::size_t>(n));
   // Who is not seen needs no images: nobody that they might be near to is computed.
   const Index n_seen = scene.seen().size();
-  bound_skins(sph, n_seen);
+  sph.skin.width = largest_skin(sph, n_seen);
   if (halo.active()) choose_images(sph.x_build.data(), n_seen, reach(sph), halo);
   resize_ghosts(halo, scene);
   sph.x_build.resize(static_cast<std::size_t>(n + halo.n_ghosts()));
@@ -112,6 +115,37 @@ struct Motion {
   }
 };
 
+/// Over particles [m].
+struct MotionSum {
+  double sum = 0;
+  double largest = 0;
+};
+
+/// Gives the first n sources how much their cell moves a step: the larger of `until_now`, of so
+/// many steps together, and `now`.
+MotionSum spread_motion(const ListAge& age, Index n, double steps,
+                        const std::vector<double>& until_now, const std::vector<double>& now,
+                        Array<double>& of_particle) {
+  return parallel_reduce(
+      age.n_cells(), 64, MotionSum{},
+      [&](Index begin, Index end) {
+        MotionSum part;
+        for (Index c = begin; c < end; ++c) {
+          const double u = std::max(until_now[c] / std::max(1.0, steps), now[c]);
+          for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
+            if (age.member[k] >= n) continue;
+            of_particle[age.member[k]] = u;
+            part.sum += u;
+            part.largest = std::max(part.largest, u);
+          }
+        }
+        return part;
+      },
+      [](const MotionSum& a, const MotionSum& b) {
+        return MotionSum{a.sum + b.sum, std::max(a.largest, b.largest)};
+      });
+}
+
 /// Chooses the skin of each particle from how much its cell moves a step, relative to those near
 /// it: on the mean while the last lists were used, and now. What is fast now moves on before
 /// anybody asks again whether the new lists are old.
@@ -125,23 +159,18 @@ void choose_skins(SphState& sph, const Scene& scene, const Motion& motion) {
     return sph.halo.image_of(g).vector(motion.of_step(sph.halo.source[g]));
   });
   const std::vector<double> now = relative_motion(age);
-  double sum = 0;
-  double largest = 0;
-  std::fill(sph.list_skin.begin(), sph.list_skin.end(), 0.0);
-  for (Index c = 0; c < age.n_cells(); ++c) {
-    const auto at = static_cast<std::size_t>(c);
-    const double u = std::max(until_now[at] / std::max(1.0, sph.skin.steps), now[at]);
-    for (Index k = age.start[c]; k < age.start[c + 1]; ++k) {
-      if (age.member[k] >= n) continue;
-      sph.list_skin[age.member[k]] = u;
-      sum += u;
-      largest = std::max(largest, u);
+  // Particles at rest are in no sum, and have the thinnest.
+  const auto n_all = static_cast<Index>(sph.list_skin.size());
+  parallel_for(n_all, node_chunk, [&](Index begin, Index end) {
+    std::fill(sph.list_skin.begin() + begin, sph.list_skin.begin() + end, 0.0);
+  });
+  const MotionSum all = spread_motion(age, n, sph.skin.steps, until_now, now, sph.list_skin);
+  const double steps = steps_to_last(sph.skin, all.sum / std::max(n, 1), all.largest, sph.dx);
+  parallel_for(n_all, node_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      sph.list_skin[k] = skin_for(sph.skin, sph.list_skin[k], steps);
     }
-  }
-  const double steps = steps_to_last(sph.skin, sum / std::max(n, 1), largest, sph.dx);
-  for (Index k = 0; k < n; ++k) {
-    sph.list_skin[k] = skin_for(sph.skin, sph.list_skin[k], steps);
-  }
+  });
 }
 
 /// Whether a particle that was too far from a wall to have an image has come within 2 h of it, of
@@ -210,6 +239,7 @@ void rebuild_lists(SphState& sph, Scene& scene) {
     follow_walls(sph.halo, scene);
   }
   sort_particles(scene, sph.dx);
+  bound_skins(sph);
   sph.x_build.resize(static_cast<std::size_t>(n));
   const Line* x = scene.nodes.x.data() + scene.particles.begin;
   parallel_for(n, node_chunk, [&](Index begin, Index end) {

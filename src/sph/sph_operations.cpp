@@ -149,7 +149,7 @@ void add_force(SphState& sph, Scene& scene, Plan& plan, const std::string& reaso
 }
 
 std::string skin_in_words(const ListSkin& skin) {
-  if (skin.least == skin.most) return fmt::format("{:.3g} m", skin.width);
+  if (skin.least == skin.most) return fmt::format("{:.3g} m", skin.least);
   return fmt::format("{:.3g} to {:.3g} m by how fast that is", skin.least, skin.most);
 }
 

@@ -37,28 +37,50 @@ boundaries: {sides: {periodic: {y: [0, 1]}}}
 
 double period(Pool& pool) { return pool.sph().halo.high.y() - pool.sph().halo.low.y(); }
 
-/// Pairs of an owned particle and a particle or an image of one along y, nearer than the kernel
-/// reaches.
-int pairs_near(Pool& pool, Index i) {
-  const double reach = (1 - 1e-9) * pool.sph().kernel.reach();
+/// Pairs of an owned particle and a particle or an image of one along y that are nearer than
+/// `reach`, with all particles at x.
+int pairs_near(Pool& pool, const Array<Line>& x, Index i, double reach) {
   int n = 0;
   for (Index j = 0; j < pool.scene.particles.size(); ++j) {
     for (const double shift : {-period(pool), 0.0, period(pool)}) {
-      n += (pool.x(i) - pool.x(j) - Vec3(0, shift, 0)).norm() < reach;
+      n += (xyz(x[i]) - xyz(x[j]) - Vec3(0, shift, 0)).norm() < reach;
     }
   }
   return n;
 }
 
 /// Of those, the ones that the list of the particle holds.
-int pairs_listed(Pool& pool, Index i) {
+int pairs_listed(Pool& pool, const Array<Line>& x, Index i, double reach) {
   const ClusterList& list = pool.sph().list;
-  const double reach = (1 - 1e-9) * pool.sph().kernel.reach();
   const auto c = static_cast<std::size_t>(i / ClusterList::lanes);
   int n = 0;
   for (std::int64_t e = list.offset[c]; e < list.offset[c + 1]; ++e) {
     const Index j = list.source[static_cast<std::size_t>(e)];
-    n += j < list.n_sources && (pool.x(i) - pool.x(j)).norm() < reach;
+    n += j < list.n_sources && (xyz(x[i]) - xyz(x[j])).norm() < reach;
+  }
+  return n;
+}
+
+/// The particles that miss a pair nearer than the kernel reaches, now.
+int n_missing_now(Pool& pool) {
+  const Array<Line> x(pool.scene.nodes.x.begin() + pool.scene.particles.begin,
+                      pool.scene.nodes.x.end());
+  const double reach = (1 - 1e-9) * pool.sph().kernel.reach();
+  int n = 0;
+  for (Index i = 0; i < pool.scene.particles.size(); ++i) {
+    n += pairs_near(pool, x, i, reach) != pairs_listed(pool, x, i, reach);
+  }
+  return n;
+}
+
+/// The particles that miss a pair which was nearer than the kernel reaches and their skin when the
+/// lists were built.
+int n_missing_at_build(Pool& pool) {
+  const SphState& sph = pool.sph();
+  int n = 0;
+  for (Index i = 0; i < pool.scene.particles.size(); ++i) {
+    const double reach = (1 - 1e-6) * (sph.kernel.reach() + sph.list_skin[i]);
+    n += pairs_near(pool, sph.x_build, i, reach) != pairs_listed(pool, sph.x_build, i, reach);
   }
   return n;
 }
@@ -73,9 +95,7 @@ TEST_CASE("neighbour lists: no pair is missing after any step of a storm", "[sph
     while (pool.at().t < 0.08) {
       pool.run(1);
       ++n_steps;
-      for (Index i = 0; i < pool.scene.particles.size(); ++i) {
-        n_missing += pairs_near(pool, i) != pairs_listed(pool, i);
-      }
+      n_missing += n_missing_now(pool);
     }
     CHECK(n_missing == 0);
     CHECK(n_steps > 200);
@@ -109,8 +129,8 @@ boundaries: {sides: {periodic: {y: [0, 6]}}}
   bool met = false;
   while (pool.at().t < 0.09) {
     pool.run(1);
+    n_missing += n_missing_now(pool);
     for (Index i = 0; i < pool.scene.particles.size(); ++i) {
-      n_missing += pairs_near(pool, i) != pairs_listed(pool, i);
       const double v_y = pool.scene.nodes.v[pool.scene.particles.begin + i].y;
       met = met || (pool.x(i).y() < 1 && v_y > -3);
     }
@@ -132,4 +152,78 @@ TEST_CASE("neighbour lists: skins are thick only where particles move against ea
     sum += skin;
   }
   CHECK(sum < 0.8 * sph.skin.width * pool.scene.particles.size());
+}
+
+TEST_CASE("neighbour lists: each reaches as far as its skin says, across a periodic end too",
+          "[sph]") {
+  for (const char* more : {"", ", skin: 0.4"}) {
+    Pool pool = storm(more);
+    int n_missing = n_missing_at_build(pool);
+    while (pool.at().t < 0.08) {
+      const std::int64_t built = pool.sph().n_builds;
+      pool.run(1);
+      if (pool.sph().n_builds > built) n_missing += n_missing_at_build(pool);
+    }
+    CHECK(n_missing == 0);
+  }
+}
+
+TEST_CASE("neighbour lists: a restart with another skin takes the stored ones as they are",
+          "[sph]") {
+  Pool thick = storm(", skin: 0.4");
+  thick.run(1);
+  const std::int64_t built = thick.sph().n_builds;
+  while (thick.sph().n_builds == built) thick.run(1);
+  // As old as these lists become.
+  test::Saved old;
+  Step at;
+  for (std::int64_t now = thick.sph().n_builds; thick.sph().n_builds == now; thick.run(1)) {
+    old = test::save(thick.scene);
+    at = thick.at();
+  }
+  for (const char* more : {", skin: 0.02", ", skin: 0.4", ", skin: 1", ""}) {
+    Pool other = storm(more);
+    test::load(old, other.scene);
+    other.models.list.front().step = at;
+    for (const auto& rebuild : other.scene.after_restart) rebuild();
+    CHECK(other.sph().skin.width == Approx(0.4 * 0.05));
+    CHECK(n_missing_now(other) == 0);
+    CHECK(n_missing_at_build(other) == 0);
+    int n_missing = 0;
+    for (int k = 0; k < 30; ++k) {
+      other.run(1);
+      n_missing += n_missing_now(other);
+    }
+    CHECK(n_missing == 0);
+    CHECK(other.sph().skin.width >= other.sph().skin.least);
+    CHECK(other.sph().skin.width <= other.sph().skin.most);
+  }
+}
+
+TEST_CASE("neighbour lists: water that meets head on is seen, wherever it was at the last build",
+          "[sph]") {
+  // Rows at all distances from a wall of water: some are just out of its reach at any build.
+  Pool pool(R"(
+materials: {water: {density: 1000, c0: 100 m/s}}
+parts:
+  still: {sph: {material: water, spacing: 0.05, skin: 0.5}, fill: {box: {from: [0, 0, 0], to: [0.3, 1, 0]}}}
+  rows:
+    sph: {material: water, spacing: 0.05, skin: 0.5}
+    fill: {box: {from: [0.5, 0, 0], to: [0.7, 1, 0]}}
+    initial_velocity: [-2, 0, 0]
+boundaries: {sides: {periodic: {y: [0, 1]}}}
+)",
+            2, Vec3::Zero(), [](Scene& scene) {
+              for (Index i = scene.particles.begin; i < scene.particles.end; ++i) {
+                Line& x = scene.nodes.x[i];
+                if (x.x > 0.4) x.x += 0.002 * std::floor(x.y / 0.1);
+              }
+            });
+  int n_missing = 0;
+  while (pool.at().t < 0.09) {
+    pool.run(1);
+    n_missing += n_missing_now(pool);
+  }
+  CHECK(n_missing == 0);
+  CHECK(pool.sph().n_builds > 5);
 }
