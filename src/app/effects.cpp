@@ -68,7 +68,7 @@ std::vector<Effect> make_table() {
       mass_scaling_effect(),        // what those elements have made of it
       rigid_surface_effect(),       //
       displaced_fill_effect(),      // when all parts have their points
-      carried_walls_effect(),       // likewise; they move after their bodies
+      carried_walls_effect(),       // likewise; before contacts: their links have the weight
       plane_contact_effect(),       //
       contacts_effect(),            //
       part_contacts_effect(),       //

@@ -38,8 +38,8 @@ void add_late_work(Walls& walls, Scene& scene, Models& models, Model& slow, cons
                          .stage = Stage::half_drift,
                          .reads = {"v"},
                          .run = [&](const Step& step) {
-                           entry.pending =
-                               -0.5 * step.dt * sum_over_awake(scene, wall.part, [&](Index k) {
+                           entry.pending -=
+                               0.5 * step.dt * sum_over_awake(scene, wall.part, [&](Index k) {
                                  const auto i = static_cast<std::size_t>(scene.particles.begin + k);
                                  return xyz(term.f[k]).dot(xyz(scene.nodes.v[i]));
                                });
