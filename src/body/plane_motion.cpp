@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "body/effects.hpp"
+#include "plan/model_of_part.hpp"
+#include "plan/model_planes.hpp"
 #include "scene/tracked_values.hpp"
 
 namespace gannet {
@@ -128,39 +132,108 @@ void track_motion(PlaneMotion& motion, Scene& scene) {
   }
 }
 
+void add_operation(const PlaneMotion& motion, Model& model, const char* what, Stage stage,
+                   std::function<void(const Step&)> run) {
+  model.plan.add({.name = fmt::format("planes of {}: {}", motion.name, what),
+                  .reason = asked_for_at(motion.where),
+                  .stage = stage,
+                  .writes = {"planes"},
+                  .run = std::move(run)});
+}
+
+/// The motion of the scene's planes.
+void add_motion(PlaneMotion& motion, Scene& scene, Model& model) {
+  track_motion(motion, scene);
+  add_operation(motion, model, "velocity", Stage::kick,
+                [&](const Step& step) { choose_motion(motion, scene.planes, step); });
+  add_operation(motion, model, "half way", Stage::half_drift, [&](const Step&) {
+    place_planes(motion, 0.5 * (motion.d + motion.d_next), 0.5 * (motion.theta + motion.theta_next),
+                 scene.planes);
+  });
+  add_operation(motion, model, "new place", Stage::drift, [&](const Step&) {
+    motion.d = motion.d_next;
+    motion.theta = motion.theta_next;
+    place_planes(motion, motion.d, motion.theta, scene.planes);
+  });
+}
+
+/// The same for the planes that another model sees.
+void add_seen_motion(SeenMotion& seen, Model& model) {
+  add_operation(seen.its, model, "place at the level", Stage::force, [&](const Step& step) {
+    follow_motion(*seen.of, seen.time->t, seen.its, *seen.planes, step);
+  });
+  add_operation(seen.its, model, "velocity", Stage::kick,
+                [&](const Step& step) { choose_motion(seen.its, *seen.planes, step); });
+}
+
+/// Gives the models of parts that meet planes their own, but for the one that moves the scene's.
+void add_own_planes(Scene& scene, Models& models, const Model& mover) {
+  auto& motions = scene.store.get<PlaneMotions>();
+  auto& all = scene.store.get<ModelPlanes>();
+  for (const int part : all.parts) {
+    Model& model = model_of_part(scene, models, part);
+    if (&model == &mover || all.own.contains(&model)) continue;
+    std::vector<Plane>& planes = all.own[&model] = scene.planes;
+    for (const PlaneMotion& motion : motions.list) {
+      add_seen_motion(motions.seen.emplace_back(SeenMotion{motion, &motion, &mover.step, &planes}),
+                      model);
+    }
+  }
+}
+
 void operations(const Keys&, Scene& scene, Models& models) {
   if (!scene.store.has<PlaneMotions>()) return;
   const bool particles = !scene.particles.empty();
   Model& model = particles ? models.of_node(scene.particles.begin) : models.list.back();
   for (PlaneMotion& motion : scene.store.get<PlaneMotions>().list) {
-    track_motion(motion, scene);
-    const auto add = [&](const char* what, Stage stage, std::function<void(const Step&)> run) {
-      model.plan.add({.name = fmt::format("planes of {}: {}", motion.name, what),
-                      .reason = asked_for_at(motion.where),
-                      .stage = stage,
-                      .writes = {"planes"},
-                      .run = std::move(run)});
-    };
-    add("velocity", Stage::kick, [&](const Step& step) { choose_motion(motion, scene, step); });
-    add("half way", Stage::half_drift, [&](const Step&) {
-      place_planes(motion, 0.5 * (motion.d + motion.d_next),
-                   0.5 * (motion.theta + motion.theta_next), scene);
-    });
-    add("new place", Stage::drift, [&](const Step&) {
-      motion.d = motion.d_next;
-      motion.theta = motion.theta_next;
-      place_planes(motion, motion.d, motion.theta, scene);
-    });
+    add_motion(motion, scene, model);
   }
+  if (scene.store.has<ModelPlanes>()) add_own_planes(scene, models, model);
+}
+
+/// Displacement [m] and angle [rad] of planes.
+struct Pose {
+  Vec3 d;
+  double theta;
+};
+
+/// Where planes are that are at `from` at time t, after dt more [s], which may be below 0.
+Pose pose_after(const PlaneMotion& motion, const Pose& from, double t, double dt) {
+  Pose pose = from;
+  if (dt == 0) return pose;
+  const double next = t + dt;
+  const auto way = [&](const Function& rate) {
+    return dt * mean_over(rate, std::min(t, next), std::max(t, next));
+  };
+  if (motion.by_place) {
+    pose.d = value_at(motion.shift, next) - value_at(motion.shift, 0);
+  } else {
+    for (int c = 0; c < 3; ++c) {
+      pose.d[c] += way(motion.shift.component[static_cast<std::size_t>(c)]);
+    }
+  }
+  if (motion.by_angle) {
+    pose.theta = value_at(motion.turn, next) - value_at(motion.turn, 0);
+  } else if (motion.turns) {
+    pose.theta += way(motion.turn);
+  }
+  return pose;
+}
+
+void stand(PlaneMotion& motion, const Pose& pose, std::vector<Plane>& planes) {
+  motion.d = pose.d;
+  motion.theta = pose.theta;
+  place_planes(motion, motion.d, motion.theta, planes);
 }
 
 }  // namespace plane_motion
 }  // namespace
 
-void place_planes(const PlaneMotion& motion, const Vec3& d, double theta, Scene& scene) {
+void place_planes(const PlaneMotion& motion, const Vec3& d, double theta,
+                  std::vector<Plane>& planes) {
   const Mat3 R = Eigen::AngleAxisd(theta, motion.axis).toRotationMatrix();
   for (std::size_t k = 0; k < motion.planes.size(); ++k) {
-    Plane& plane = scene.planes[motion.planes[k]];
+    Plane& plane = planes[motion.planes[k]];
     plane.point = motion.point[k] + d;
     if (!motion.turns) continue;
     plane.point = motion.centre + R * (motion.point[k] - motion.centre) + d;
@@ -168,27 +241,14 @@ void place_planes(const PlaneMotion& motion, const Vec3& d, double theta, Scene&
   }
 }
 
-void choose_motion(PlaneMotion& motion, Scene& scene, const Step& step) {
-  const double next = step.t + step.dt;
-  motion.d_next = motion.d;
-  motion.theta_next = motion.theta;
-  if (motion.by_place) {
-    motion.d_next = value_at(motion.shift, next) - value_at(motion.shift, 0);
-  } else {
-    for (int c = 0; c < 3; ++c) {
-      const Function& v = motion.shift.component[static_cast<std::size_t>(c)];
-      motion.d_next[c] += step.dt * mean_over(v, step.t, next);
-    }
-  }
-  if (motion.by_angle) {
-    motion.theta_next = value_at(motion.turn, next) - value_at(motion.turn, 0);
-  } else if (motion.turns) {
-    motion.theta_next += step.dt * mean_over(motion.turn, step.t, next);
-  }
+void choose_motion(PlaneMotion& motion, std::vector<Plane>& planes, const Step& step) {
+  const auto next = plane_motion::pose_after(motion, {motion.d, motion.theta}, step.t, step.dt);
+  motion.d_next = next.d;
+  motion.theta_next = next.theta;
   const Vec3 spin = motion.axis * ((motion.theta_next - motion.theta) / step.dt);
   const Mat3 R_next = Eigen::AngleAxisd(motion.theta_next, motion.axis).toRotationMatrix();
   for (std::size_t k = 0; k < motion.planes.size(); ++k) {
-    Plane& plane = scene.planes[motion.planes[k]];
+    Plane& plane = planes[motion.planes[k]];
     plane.velocity_old = plane.velocity;
     plane.spin_old = plane.spin;
     plane.velocity = (motion.d_next - motion.d) / step.dt;
@@ -197,6 +257,18 @@ void choose_motion(PlaneMotion& motion, Scene& scene, const Step& step) {
     plane.velocity = (then - plane.point) / step.dt;
     plane.spin = spin;
   }
+}
+
+void follow_motion(const PlaneMotion& of, double T, PlaneMotion& its, std::vector<Plane>& planes,
+                   const Step& step) {
+  using namespace plane_motion;
+  const Pose known{of.d, of.theta};
+  if (step.dt_old > 0) {
+    const double before = step.t - step.dt_old;
+    stand(its, pose_after(of, known, T, before - T), planes);
+    choose_motion(its, planes, {.t = before, .dt = step.dt_old});
+  }
+  stand(its, pose_after(of, known, T, step.t - T), planes);
 }
 
 Effect plane_motion_effect() {

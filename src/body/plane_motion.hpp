@@ -4,6 +4,14 @@
 //   kick         the mean velocity of the step to come; displacement at n+1
 //   half drift   planes at n+1/2, before lists and images are made
 //   drift        planes at n+1
+//
+// Planes of the scene go at the step of the water. Where parts of another model meet planes, that
+// model has its own (plan/model_planes.hpp), put at each of its levels where they are by then:
+//
+//   force        place at n and mean velocity of the step before, from where the scene's stand
+//   kick         the mean velocity of the step to come
+//
+// They have no state of their own.
 #pragma once
 
 #include <deque>
@@ -40,17 +48,33 @@ struct PlaneMotion {
   double theta_next = 0;
 };
 
+/// A motion as another model sees it.
+struct SeenMotion {
+  PlaneMotion its;                  ///< d and theta at the model's levels; not tracked
+  const PlaneMotion* of = nullptr;  ///< of the scene's planes
+  const Step* time = nullptr;       ///< of the model that moves them
+  std::vector<Plane>* planes = nullptr;
+};
+
 /// All moving planes: scene.store.get<PlaneMotions>().
 struct PlaneMotions {
   std::deque<PlaneMotion> list;
+  std::deque<SeenMotion> seen;
 };
 
-/// Puts the planes where they are for a displacement [m] and an angle [rad].
-void place_planes(const PlaneMotion& motion, const Vec3& d, double theta, Scene& scene);
+/// Puts planes, numbered as scene.planes, where they are for a displacement [m] and an angle [rad].
+void place_planes(const PlaneMotion& motion, const Vec3& d, double theta,
+                  std::vector<Plane>& planes);
 
 /// Finds d and theta at n+1 and the planes' mean velocities over the step. A displacement or angle
 /// given as such is taken at t(n+1) itself, less its value at t = 0; a velocity adds its mean over
 /// the step.
-void choose_motion(PlaneMotion& motion, Scene& scene, const Step& step);
+void choose_motion(PlaneMotion& motion, std::vector<Plane>& planes, const Step& step);
+
+/// Puts planes of a model where they are at its level, with the mean velocities of its step before:
+/// d and theta from those of `of`, which hold at time T [s]. Depends on nothing else but step.t and
+/// step.dt_old, unless dt_old = 0: velocities stay as they are then.
+void follow_motion(const PlaneMotion& of, double T, PlaneMotion& its, std::vector<Plane>& planes,
+                   const Step& step);
 
 }  // namespace gannet

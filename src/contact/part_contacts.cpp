@@ -10,6 +10,7 @@
 #include "contact/part_kinds.hpp"
 #include "contact/part_planes.hpp"
 #include "plan/model_of_part.hpp"
+#include "plan/model_planes.hpp"
 
 namespace gannet {
 
@@ -183,8 +184,9 @@ void operations(const Keys& root, Scene& scene, Models& models) {
   }
   if (planes) {
     for (PartOnPlanes& c : scene.store.get<PartsOnPlanes>().list) {
-      add_part_on_planes(scene, c, all.meetings[&model_of_part(scene, models, c.side.part)],
-                         models.ledger);
+      Model& model = model_of_part(scene, models, c.side.part);
+      c.seen = &planes_seen_by(scene, model);
+      add_part_on_planes(scene, c, all.meetings[&model], models.ledger);
     }
   }
   for (auto& [model, meeting] : all.meetings) {

@@ -7,6 +7,7 @@
 #include "contact/part_contact.hpp"
 #include "contact/planes.hpp"
 #include "contact/track_contact.hpp"
+#include "plan/model_planes.hpp"
 
 namespace gannet {
 
@@ -19,6 +20,8 @@ constexpr double touching = 1e-9;
 
 /// What a node faces least, as a share of the areas around it.
 constexpr double least_facing = 0.1;
+
+const Plane& plane_of(const PartOnPlanes& c, std::size_t k) { return (*c.seen)[c.planes[k]]; }
 
 Vec3 velocity_of_plane(const Plane& plane, const Vec3& x) {
   return plane.velocity + plane.spin.cross(x - plane.point);
@@ -40,7 +43,7 @@ void find_touches(const Scene& scene, PartOnPlanes& c) {
   c.touches.clear();
   std::size_t entry = 0;
   for (std::size_t k = 0; k < c.planes.size(); ++k) {
-    const Plane& plane = scene.planes[c.planes[k]];
+    const Plane& plane = plane_of(c, k);
     for (std::size_t i = 0; i < surface.node.size(); ++i, ++entry) {
       const Vec3 x = xyz(scene.nodes.x[static_cast<std::size_t>(surface.node[i])]);
       const double inside = c.distance - plane.normal.dot(x - plane.point);
@@ -88,8 +91,8 @@ void find_stiffness(const Scene& scene, PartOnPlanes& c) {
 void find_forces(const Scene& scene, PartOnPlanes& c, const Step& step) {
   for (PlaneTouch& t : c.touches) {
     const auto i = static_cast<std::size_t>(c.side.surface.node[t.point]);
-    const Vec3 v = xyz(scene.nodes.v[i]) -
-                   velocity_of_plane(scene.planes[c.planes[t.plane]], xyz(scene.nodes.x[i]));
+    const Vec3 v =
+        xyz(scene.nodes.v[i]) - velocity_of_plane(plane_of(c, t.plane), xyz(scene.nodes.x[i]));
     t.normal = penalty_force(t.stiffness, t.gap);
     if (c.law.damping > 0) {
       t.damping = damping_force(c.law.damping, t.stiffness, t.mass, t.gap.normal.dot(v), t.gap);
@@ -137,6 +140,8 @@ PartOnPlanes& make_part_on_planes(Scene& scene, const std::string& name, int num
   c.name = name;
   c.side = make_part_side(scene, number, data, true);
   c.planes = std::move(planes);
+  c.seen = &scene.planes;
+  scene.store.get<ModelPlanes>().parts.push_back(number);
   c.area = c.side.area;
   c.followers = &scene.store.get<Followers>();
   const std::size_t n = c.planes.size() * c.side.surface.node.size();
@@ -174,7 +179,7 @@ void add_work_on_planes(const Scene& scene, PartOnPlanes& c, const Step& step) {
   Work put_in = Work::Zero();
   for (const PlaneTouch& t : c.touches) {
     const Index node = c.side.surface.node[t.point];
-    const Plane& plane = scene.planes[c.planes[t.plane]];
+    const Plane& plane = part_planes::plane_of(c, t.plane);
     WorkPath path = work_path(scene.nodes, node, step);
     if (plane.moves) {
       const Vec3 x = xyz(scene.nodes.x[static_cast<std::size_t>(node)]);

@@ -32,9 +32,10 @@ struct PartOnPlanes {
   std::string name;
   Location where;
   PartSide side;
-  std::vector<std::size_t> planes;  ///< numbers in scene.planes
-  double distance = 0;              ///< of the nodes from a plane where contact begins [m]
-  double factor = 1;                ///< on the stiffness that the elements can bear
+  std::vector<std::size_t> planes;           ///< numbers in scene.planes
+  const std::vector<Plane>* seen = nullptr;  ///< those of its model, or the scene's
+  double distance = 0;                       ///< of the nodes from a plane where contact begins [m]
+  double factor = 1;                         ///< on the stiffness that the elements can bear
   double kappa = 0;  ///< penalty per area and depth of the case [Pa/m]; 0: that of the elements
   ContactLaw law;    ///< friction and damping
   const Followers* followers = nullptr;

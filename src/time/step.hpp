@@ -12,7 +12,8 @@
 //
 // With several models the last three stages of a slower one wait until the faster ones have arrived
 // where its step ends: their nodes do not ask where its own are meanwhile, and what of its own
-// rides on theirs goes the way that they went.
+// rides on theirs goes the way that they went. Planes that it moves they see at their own levels
+// (plan/model_planes.hpp).
 #pragma once
 
 #include <span>
