@@ -206,8 +206,8 @@ TEST_CASE("linked walls: a box floats as in one model, at ratios of 10 and 50", 
         n, s->models.list.front().step.n, 1e3 * draft, most_aside, link / external,
         energy_error(*s));
     CHECK(draft == Approx(0.1).margin(1e-3));
-    CHECK(draft == Approx(draft_in_one).margin(2e-4));
+    CHECK(draft == Approx(draft_in_one).margin(5e-6));
     CHECK(most_aside < 1e-9);
-    CHECK(link < 1e-3 * external);
+    CHECK(link < 3e-5 * external);
   }
 }
