@@ -159,8 +159,8 @@ void add_lists(SphState& sph, Scene& scene, Plan& plan) {
                       skin_in_words(sph.skin) + ", relative to each other",
             .stage = Stage::half_drift,
             .reads = {"x", "v"},
-            .writes = {"x_build", "order of particles"},
-            .owns = {"x_build"},
+            .writes = {"x_build", "list_skin", "order of particles"},
+            .owns = {"x_build", "list_skin"},
             .run = [&](const Step& step) { renew_lists(sph, scene, 0.5 * step.dt); }});
 }
 
