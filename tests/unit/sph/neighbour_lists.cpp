@@ -37,26 +37,40 @@ boundaries: {sides: {periodic: {y: [0, 1]}}}
 
 double period(Pool& pool) { return pool.sph().halo.high.y() - pool.sph().halo.low.y(); }
 
+/// Whether a line at a distance of (dx, dy) in the plane is nearer than `reach`. Plain numbers:
+/// under the sanitizers these are asked for a hundred million times.
+bool is_near(double dx, double dy, double reach) { return dx * dx + dy * dy < reach * reach; }
+
 /// Pairs of an owned particle and a particle or an image of one along y that are nearer than
-/// `reach`, with all particles at x.
-int pairs_near(Pool& pool, const Array<Line>& x, Index i, double reach) {
+/// `reach`, less than half the period, with all particles at x.
+int pairs_near(Pool& pool, const Array<Line>& all, Index i, double reach) {
+  const double L = period(pool);
+  const Line* x = all.data();
+  const Line at = x[i];
+  const Index n_particles = pool.scene.particles.size();
   int n = 0;
-  for (Index j = 0; j < pool.scene.particles.size(); ++j) {
-    for (const double shift : {-period(pool), 0.0, period(pool)}) {
-      n += (xyz(x[i]) - xyz(x[j]) - Vec3(0, shift, 0)).norm() < reach;
-    }
+  for (Index j = 0; j < n_particles; ++j) {
+    const double dx = at.x - x[j].x;
+    if (dx > reach || dx < -reach) continue;
+    double dy = at.y - x[j].y;
+    if (dy > 0.5 * L) dy -= L;
+    if (dy < -0.5 * L) dy += L;
+    n += is_near(dx, dy, reach) ? 1 : 0;
   }
   return n;
 }
 
 /// Of those, the ones that the list of the particle holds.
-int pairs_listed(Pool& pool, const Array<Line>& x, Index i, double reach) {
+int pairs_listed(Pool& pool, const Array<Line>& all, Index i, double reach) {
   const ClusterList& list = pool.sph().list;
   const auto c = static_cast<std::size_t>(i / ClusterList::lanes);
+  const Line* x = all.data();
+  const Line at = x[i];
+  const auto end = list.source.data() + list.offset[c + 1];
   int n = 0;
-  for (std::int64_t e = list.offset[c]; e < list.offset[c + 1]; ++e) {
-    const Index j = list.source[static_cast<std::size_t>(e)];
-    n += j < list.n_sources && (xyz(x[i]) - xyz(x[j])).norm() < reach;
+  for (auto source = list.source.data() + list.offset[c]; source != end; ++source) {
+    if (*source >= list.n_sources) continue;
+    n += is_near(at.x - x[*source].x, at.y - x[*source].y, reach) ? 1 : 0;
   }
   return n;
 }
