@@ -3,37 +3,12 @@
 
 #include "body/rigid_body.hpp"
 #include "running.hpp"
+#include "water_meets_box.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
 
 namespace {
-
-/// A block of water of 0.3 m x 0.3 m that meets a free box of 0.2 m x 0.1 m off its middle,
-/// without gravity and walls.
-std::string meeting(const char* slip, double density) {
-  return fmt::format(R"case(gannet: 1
-dimension: 2
-materials: {{water: {{density: 1000, c0: 40 m/s}}}}
-parts:
-  water:
-    sph: {{material: water, spacing: 10 mm}}
-    fill: {{box: {{from: [0, 0, 0], to: [0.3 m, 0.3 m, 0]}}}}
-    initial_velocity: [0, 2 m/s, 0]
-  box:
-    rigid_surface: {{}}
-    shape:
-      polyline:
-        points: [[0.12, 0.31, 0], [0.32, 0.33, 0], [0.31, 0.43, 0], [0.11, 0.41, 0], [0.12, 0.31, 0]]
-        elements: [10, 5, 10, 5]
-bodies: {{box: {{parts: box, density: {}, walls: dummy, slip: {}, angular_velocity: [0, 0, 1]}}}}
-effects:
-  viscosity: {{type: monaghan, alpha: 0.1}}
-  xsph: {{epsilon: 0.3}}
-output: {{until: 10 s, checkpoint: never}}
-)case",
-                     density, slip);
-}
 
 /// Linear momentum of all that has a mass, and angular momentum about the origin with the spin of
 /// bodies, at entry to a step.
@@ -117,7 +92,7 @@ TEST_CASE("walls: a bed keeps half a spacing off a hull, whether it names its fl
 
 TEST_CASE("walls on bodies: momentum of water and body is kept to rounding", "[physics]") {
   for (const char* slip : {"free", "none"}) {
-    const auto s = make_simulation_of_text(meeting(slip, 300));
+    const auto s = make_simulation_of_text(water_meets_box(slip, 300));
     const Momenta start = momenta(*s);
     const double p_scale = linear_momentum(s->scene).scale;
     const double L_scale = angular_momentum(s->scene).scale;
@@ -143,7 +118,7 @@ TEST_CASE("walls on bodies: momentum of water and body is kept to rounding", "[p
 
 TEST_CASE("walls on bodies: a body lighter than the water at its skin is pushed, not shaken",
           "[physics]") {
-  const auto s = make_simulation_of_text(meeting("free", 10));
+  const auto s = make_simulation_of_text(water_meets_box("free", 10));
   const double speed = 2;  // of the water
   double most = 0;
   run_until(*s, 0.1,

@@ -4,37 +4,19 @@
 
 #include "body/rigid_body.hpp"
 #include "running.hpp"
+#include "water_meets_box.hpp"
 
 using namespace gannet;
 using namespace gannet::test;
 
 namespace {
 
-/// A block of water of 0.3 m x 0.3 m that meets a free box of 0.2 m x 0.1 m off its middle, without
-/// gravity.
+/// The model of the box takes its own steps; slow_forces: how the water pushes it.
 std::string meeting(const char* slow_forces) {
-  return fmt::format(R"case(gannet: 1
-dimension: 2
-materials: {{water: {{density: 1000, c0: 40 m/s}}}}
-parts:
-  water:
-    sph: {{material: water, spacing: 10 mm}}
-    fill: {{box: {{from: [0, 0, 0], to: [0.3 m, 0.3 m, 0]}}}}
-    initial_velocity: [0, 2 m/s, 0]
-  box:
-    rigid_surface: {{}}
-    shape:
-      polyline:
-        points: [[0.12, 0.31, 0], [0.32, 0.33, 0], [0.31, 0.43, 0], [0.11, 0.41, 0], [0.12, 0.31, 0]]
-        elements: [10, 5, 10, 5]
-bodies: {{box: {{parts: box, density: 300, walls: dummy, slip: none, angular_velocity: [0, 0, 1]}}}}
-models: {{sea: {{parts: water}}, rest: {{parts: box, slow_forces: {}}}}}
-effects:
-  viscosity: {{type: monaghan, alpha: 0.1}}
-  xsph: {{epsilon: 0.3}}
-output: {{until: 10 s, checkpoint: never}}
-)case",
-                     slow_forces);
+  return water_meets_box(
+      "none", 300,
+      fmt::format("models: {{sea: {{parts: water}}, rest: {{parts: box, slow_forces: {}}}}}\n",
+                  slow_forces));
 }
 
 /// The box of cases/floating_box with coarser water, released above where it floats.
